@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/model.h"
+#include "sim/settings.h"
+
+namespace lagomorph::sim {
+
+enum class StepStatus {
+  converged,           // |g_free| met the tolerance
+  rounding_floor,      // stagnated within 10 times of what rounding lets the residual reach: converged, and told
+  not_converged,       // iterations ran out, or stagnation above the floor
+  not_positive,        // no positive definite system could be had
+  not_finite,          // NaN or infinity
+};
+std::string_view to_string(StepStatus);
+inline bool is_good(StepStatus s) { return s == StepStatus::converged || s == StepStatus::rounding_floor; }
+
+/// What one step did.
+struct StepReport {
+  StepStatus status = StepStatus::converged;
+  int newton_iterations = 0;
+  double residual = 0.0;  // |g_free| / |(M g)_free|, as the tolerance is measured
+  double h = 0.0;         // step [s]
+};
+
+/// An implicit (or explicit) scheme. Holds no state of the motion: only factors and buffers that are made again.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  virtual std::string_view name() const = 0;
+  virtual int history_levels() const = 0;  // levels beyond the current one that a State must carry
+  /// q(t) -> q(t + h). On a bad status the state is left as it was.
+  virtual StepReport step(const Model&, State&, double h) = 0;
+};
+
+std::vector<std::string> integrator_names();
+/// Throws InputError for an unknown name, listing the valid ones.
+std::unique_ptr<Integrator> make_integrator(const TimeSettings&, const SolverSettings&, const Model&);
+
+/// What one frame did: the worst of its steps.
+struct FrameReport {
+  StepStatus status = StepStatus::converged;
+  int steps = 0;              // taken, halved ones counted singly
+  int halvings = 0;           // how deep a step had to be halved
+  int newton_iterations = 0;  // sum over the steps
+  double residual = 0.0;      // largest
+  bool hit_rounding_floor = false;
+  std::string reason;  // one line, when status is not good
+};
+
+/// Advances the state from its frame to the next, at exactly t = (frame + 1) / fps, by `substeps` steps; a step that does not
+/// converge is halved up to `max_halvings` times. On a bad status the state is left at its frame.
+FrameReport advance_frame(const Model&, Integrator&, const TimeSettings&, const SolverSettings&, State&);
+
+/// What the linear algebra underneath is, for run.json: CHOLMOD's and OpenBLAS's versions, kernel (core type), threads.
+struct LinearAlgebraInfo {
+  std::string cholmod, blas, blas_kernel;
+  int blas_threads = 1;
+};
+LinearAlgebraInfo linear_algebra_info();
+
+}  // namespace lagomorph::sim

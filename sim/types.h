@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <array>
+#include <cstddef>
+
+namespace lagomorph::sim {
+
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+using VecX = Eigen::VectorXd;
+/// n×3 points [m], a row per vertex; its memory is q = (x0 y0 z0 x1 y1 z1 ...).
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
+using Tet = std::array<int, 4>;
+using Triangle = std::array<int, 3>;
+
+/// Half-open range [begin, end) of indices.
+struct Range {
+  int begin = 0;
+  int end = 0;
+  int size() const { return end - begin; }
+};
+
+/// q viewed as n×3 points. q.size() must be a multiple of 3.
+inline Eigen::Map<const Points> as_points(const VecX& q) { return {q.data(), q.size() / 3, 3}; }
+
+}  // namespace lagomorph::sim
