@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/image.h"
+#include "render/types.h"
+
+namespace lagomorph::render {
+
+/// 8-bit sRGB pixels, 3 a pixel, rows from the top: what a PNG holds.
+struct Picture {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgb;
+};
+
+/// The exact piecewise curve of IEC 61966-2-1, and its inverse. Values outside [0, 1] are clamped.
+float srgb_from_linear(float linear);
+float linear_from_srgb(float srgb);
+
+std::vector<std::string> tone_curve_names();
+/// "color" of the image, times 2^exposure, through the named tone curve and sRGB, rounded to 8 bits. NaN becomes black.
+/// Throws SettingsError for an unknown curve (listing the names) or an image without colour.
+Picture tone_map(const Image&, std::string_view curve, float exposure);
+
+}  // namespace lagomorph::render

@@ -1,0 +1,37 @@
+#include <algorithm>
+#include <limits>
+
+#include "render/backends.h"
+
+namespace lagomorph::render {
+namespace {
+
+/// Draws nothing, at once: black colour, infinite depth. For tests of what stands around a renderer.
+class NullRenderer final : public Renderer {
+ public:
+  explicit NullRenderer(const RenderSettings& settings) : settings_(settings) {}
+  std::string_view name() const override { return "null"; }
+  void set_scene(const RenderScene&) override {}
+  void update_positions(int, std::span<const Vec3>) override {}
+  Image render(const Camera& camera, const FrameInfo&) override {
+    Image image(camera.width(), camera.height());
+    image.add("color", 3);
+    for (const std::string& channel : settings_.channels) {
+      std::vector<float>& values = image.add(channel, 1);
+      std::fill(values.begin(), values.end(), std::numeric_limits<float>::infinity());
+    }
+    return image;
+  }
+  std::string description() const override { return "null"; }
+
+ private:
+  RenderSettings settings_;
+};
+
+}  // namespace
+
+std::unique_ptr<Renderer> make_null_renderer(const RenderSettings& settings, int) {
+  return std::make_unique<NullRenderer>(settings);
+}
+
+}  // namespace lagomorph::render

@@ -1,0 +1,58 @@
+#include "render/renderer.h"
+
+#include "render/backends.h"
+#include "render/error.h"
+
+namespace lagomorph::render {
+namespace {
+
+struct Row {
+  const char* name;
+  std::unique_ptr<Renderer> (*make)(const RenderSettings&, int threads);
+};
+constexpr Row backends[] = {
+    {"raster", make_raster_renderer},
+    {"path", make_path_renderer},
+    {"null", make_null_renderer},
+};
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& n : names) text += (text.empty() ? "" : ", ") + n;
+  return text;
+}
+
+void check_range(const char* key, long value, long low, long high) {
+  if (value >= low && value <= high) return;
+  throw SettingsError(std::string(key) + " = " + std::to_string(value) + " must be in " + std::to_string(low) + ".." +
+                      std::to_string(high));
+}
+
+}  // namespace
+
+std::vector<std::string> renderer_names() {
+  std::vector<std::string> names;
+  for (const Row& row : backends) names.emplace_back(row.name);
+  return names;
+}
+
+std::vector<std::string> channel_names() { return {"depth"}; }
+
+std::unique_ptr<Renderer> make_renderer(const RenderSettings& settings, int threads) {
+  check_range("render.width", settings.width, 1, 16384);
+  check_range("render.height", settings.height, 1, 16384);
+  for (const std::string& channel : settings.channels) {
+    bool known = false;
+    for (const std::string& name : channel_names()) known = known || name == channel;
+    if (!known) {
+      throw SettingsError("render.channels: unknown channel '" + channel + "'; known are " + joined(channel_names()));
+    }
+  }
+  for (const Row& row : backends) {
+    if (settings.backend == row.name) return row.make(settings, threads);
+  }
+  throw SettingsError("render.backend: unknown back end '" + settings.backend + "'; known are " +
+                      joined(renderer_names()));
+}
+
+}  // namespace lagomorph::render

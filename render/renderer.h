@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/camera.h"
+#include "render/image.h"
+#include "render/render_scene.h"
+#include "render/settings.h"
+
+namespace lagomorph::render {
+
+/// What a frame is, for seeds and names; pixels depend on nothing else but scene, positions, camera and settings.
+struct FrameInfo {
+  int frame = 0;
+  double time = 0.0;  // [s]
+};
+
+/// A back end. Not for use by two threads at once; a renderer is used by the thread that made it.
+class Renderer {
+ public:
+  virtual ~Renderer() = default;
+  virtual std::string_view name() const = 0;
+  /// Takes the scene: geometry, materials, lights. Throws SettingsError or DeviceError.
+  virtual void set_scene(const RenderScene&) = 0;
+  /// New positions of scene.meshes[mesh], as many as it has [m]. Topology stays.
+  virtual void update_positions(int mesh, std::span<const Vec3> positions) = 0;
+  /// Draws "color" (linear) and every channel of settings.channels. The camera's size is the picture's.
+  virtual Image render(const Camera&, const FrameInfo&) = 0;
+  /// Library versions, device, instruction set: what the pixels' bits depend on. For run.json.
+  virtual std::string description() const = 0;
+};
+
+std::vector<std::string> renderer_names();  // raster, path, null
+std::vector<std::string> channel_names();   // depth, ...
+/// `threads` bounds the back end's threads and never changes a pixel. Throws SettingsError for an unknown backend or channel
+/// (listing the valid ones) and for values out of range, DeviceError when the machine cannot.
+std::unique_ptr<Renderer> make_renderer(const RenderSettings&, int threads);
+
+}  // namespace lagomorph::render
