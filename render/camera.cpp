@@ -11,7 +11,8 @@ namespace lagomorph::render {
 Camera::Camera(const CameraSettings& s, int width, int height)
     : width_(width), height_(height), orthographic_(s.orthographic.has_value()), position_(s.position) {
   if (width <= 0 || height <= 0) {
-    throw SettingsError("picture size " + std::to_string(width) + "x" + std::to_string(height) + " must be positive");
+    throw SettingsError("picture size " + std::to_string(width) + "x" + std::to_string(height) +
+                        " must be positive");
   }
   const Vec3 view = s.look_at - s.position;
   if (!(view.norm() > 0.0F) || !view.allFinite()) {

@@ -11,8 +11,9 @@ struct CameraSettings {
   Vec3 position = Vec3(0.0F, 0.8F, 3.0F);
   Vec3 look_at = Vec3(0.0F, 0.5F, 0.0F);
   Vec3 up = Vec3(0.0F, 1.0F, 0.0F);
-  float fov = 35.0F;                  // vertical field of view [degrees], in (0, 180)
-  std::optional<float> orthographic;  // height of the view [m]; given, the projection is orthographic and fov is ignored
+  float fov = 35.0F;  // vertical field of view [degrees], in (0, 180)
+  std::optional<float>
+      orthographic;  // height of the view [m]; given, the projection is orthographic and fov is ignored
 };
 
 struct Ray {
@@ -21,10 +22,12 @@ struct Ray {
 };
 
 /// One camera for both back ends: the same object gives the clip matrix and the rays.
-/// Right-handed eye space: x right, y up, -z forward. Pixel (0, 0) is the top left one; its centre is at (0.5, 0.5).
+/// Right-handed eye space: x right, y up, -z forward. Pixel (0, 0) is the top left one; its centre is at
+/// (0.5, 0.5).
 class Camera {
- public:
-  /// Throws SettingsError for a degenerate frame (position = look_at, up along the view, fov outside (0, 180), a size <= 0).
+public:
+  /// Throws SettingsError for a degenerate frame (position = look_at, up along the view, fov outside (0,
+  /// 180), a size <= 0).
   Camera(const CameraSettings&, int width, int height);
 
   int width() const { return width_; }
@@ -48,7 +51,7 @@ class Camera {
   /// Size of a pixel's footprint at a depth [m].
   float pixel_size(float depth) const;
 
- private:
+private:
   int width_, height_;
   bool orthographic_;
   Vec3 position_, right_, up_, forward_;

@@ -22,8 +22,8 @@ float srgb_from_linear(float linear);
 float linear_from_srgb(float srgb);
 
 std::vector<std::string> tone_curve_names();
-/// "color" of the image, times 2^exposure, through the named tone curve and sRGB, rounded to 8 bits. NaN becomes black.
-/// Throws SettingsError for an unknown curve (listing the names) or an image without colour.
+/// "color" of the image, times 2^exposure, through the named tone curve and sRGB, rounded to 8 bits. NaN
+/// becomes black. Throws SettingsError for an unknown curve (listing the names) or an image without colour.
 Picture tone_map(const Image&, std::string_view curve, float exposure);
 
 }  // namespace lagomorph::render

@@ -9,14 +9,15 @@ namespace lagomorph::render {
 
 /// One named channel of floats: `components` values a pixel, interleaved, rows from the top.
 struct Channel {
-  std::string name;    // "color" (3), "depth" (1) [m along the view axis, +inf where nothing is], "normal" (3), ...
+  std::string
+      name;  // "color" (3), "depth" (1) [m along the view axis, +inf where nothing is], "normal" (3), ...
   int components = 1;  // values a pixel
   std::vector<float> values;
 };
 
 /// Linear float channels of one size, by name. Tone curve and sRGB are applied once, at the PNG.
 class Image {
- public:
+public:
   Image() = default;
   Image(int width, int height) : width_(width), height_(height) {}
 
@@ -29,7 +30,7 @@ class Image {
   /// The channel of that name; nullptr when there is none.
   const Channel* find(std::string_view name) const;
 
- private:
+private:
   int width_ = 0;
   int height_ = 0;
   std::vector<Channel> channels_;

@@ -1,10 +1,10 @@
 #include "render/normals.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 namespace lagomorph::render {
 
@@ -16,7 +16,8 @@ VertexNormals::VertexNormals(std::span<const Triangle> triangles, std::size_t ve
   for (std::size_t v = 0; v < vertex_count; ++v) first_[v + 1] += first_[v];
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (std::size_t c = 0; c < 3; ++c) corners_[next[triangles[i][c]]++] = static_cast<std::uint32_t>(3 * i + c);
+    for (std::size_t c = 0; c < 3; ++c)
+      corners_[next[triangles[i][c]]++] = static_cast<std::uint32_t>(3 * i + c);
   }
 }
 

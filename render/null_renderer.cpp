@@ -8,7 +8,7 @@ namespace {
 
 /// Draws nothing, at once: black colour, infinite depth. For tests of what stands around a renderer.
 class NullRenderer final : public Renderer {
- public:
+public:
   explicit NullRenderer(const RenderSettings& settings) : settings_(settings) {}
   std::string_view name() const override { return "null"; }
   void set_scene(const RenderScene&) override {}
@@ -24,7 +24,7 @@ class NullRenderer final : public Renderer {
   }
   std::string description() const override { return "null"; }
 
- private:
+private:
   RenderSettings settings_;
 };
 

@@ -6,18 +6,21 @@
 
 #include "render/types.h"
 
-/// What is drawn, the same for every back end. Lengths in metres, light in W/(sr m^2) (radiance), colours linear.
+/// What is drawn, the same for every back end. Lengths in metres, light in W/(sr m^2) (radiance), colours
+/// linear.
 namespace lagomorph::render {
 
 /// A dielectric over a diffuse base, or a metal: GGX microfacets with Smith masking, Schlick's Fresnel.
 struct Material {
-  Color base_color = Color(0.8F, 0.8F, 0.8F);  // diffuse albedo, or a metal's reflectance at normal incidence, in [0, 1]
-  float roughness = 0.5F;                      // perceptual, alpha = roughness^2, in [0, 1]
-  float metallic = 0.0F;                       // 0 dielectric .. 1 metal
-  float ior = 1.5F;                            // index of refraction of the dielectric's coat, >= 1
+  Color base_color =
+      Color(0.8F, 0.8F, 0.8F);  // diffuse albedo, or a metal's reflectance at normal incidence, in [0, 1]
+  float roughness = 0.5F;       // perceptual, alpha = roughness^2, in [0, 1]
+  float metallic = 0.0F;        // 0 dielectric .. 1 metal
+  float ior = 1.5F;             // index of refraction of the dielectric's coat, >= 1
 };
 
-/// A triangle mesh whose vertices move. Normals follow: vertex_normals() of the current positions when smooth.
+/// A triangle mesh whose vertices move. Normals follow: vertex_normals() of the current positions when
+/// smooth.
 struct Mesh {
   std::string name;
   std::vector<Triangle> triangles;  // counter-clockwise from outside
@@ -27,14 +30,15 @@ struct Mesh {
   int body_id = 0;     // >= 0, written to the body id channel; the ground is -1
 };
 
-/// A disc of floor that receives shadows and fades into the background: opaque up to `fade_start` from its centre,
-/// gone at `radius`. In both back ends a fading point shows (1-w) of its shaded colour and w of what lies behind.
+/// A disc of floor that receives shadows and fades into the background: opaque up to `fade_start` from its
+/// centre, gone at `radius`. In both back ends a fading point shows (1-w) of its shaded colour and w of what
+/// lies behind.
 struct Ground {
   bool enabled = true;
-  float height = 0.0F;                // y of the plane
-  Vec3 center = Vec3::Zero();         // y ignored
-  float radius = 12.0F;               // > 0
-  float fade_start = 3.0F;            // < radius
+  float height = 0.0F;         // y of the plane
+  Vec3 center = Vec3::Zero();  // y ignored
+  float radius = 12.0F;        // > 0
+  float fade_start = 3.0F;     // < radius
   Material material{Color(0.55F, 0.55F, 0.55F), 0.9F, 0.0F, 1.5F};
 };
 
@@ -67,7 +71,8 @@ struct RenderScene {
 Color sky_radiance(const Sky&, const Vec3& direction);
 /// What the camera sees along a direction that hits nothing.
 Color background_radiance(const RenderScene&, const Vec3& direction);
-/// Weight of the background at a point of the ground: 0 inside fade_start, 1 at radius and beyond, smoothstep between.
+/// Weight of the background at a point of the ground: 0 inside fade_start, 1 at radius and beyond, smoothstep
+/// between.
 float ground_fade(const Ground&, const Vec3& point);
 
 }  // namespace lagomorph::render

@@ -24,8 +24,8 @@ std::string joined(const std::vector<std::string>& names) {
 
 void check_range(const char* key, long value, long low, long high) {
   if (value >= low && value <= high) return;
-  throw SettingsError(std::string(key) + " = " + std::to_string(value) + " must be in " + std::to_string(low) + ".." +
-                      std::to_string(high));
+  throw SettingsError(std::string(key) + " = " + std::to_string(value) + " must be in " +
+                      std::to_string(low) + ".." + std::to_string(high));
 }
 
 }  // namespace
@@ -45,7 +45,8 @@ std::unique_ptr<Renderer> make_renderer(const RenderSettings& settings, int thre
     bool known = false;
     for (const std::string& name : channel_names()) known = known || name == channel;
     if (!known) {
-      throw SettingsError("render.channels: unknown channel '" + channel + "'; known are " + joined(channel_names()));
+      throw SettingsError("render.channels: unknown channel '" + channel + "'; known are " +
+                          joined(channel_names()));
     }
   }
   for (const Row& row : backends) {

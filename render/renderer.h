@@ -13,7 +13,8 @@
 
 namespace lagomorph::render {
 
-/// What a frame is, for seeds and names; pixels depend on nothing else but scene, positions, camera and settings.
+/// What a frame is, for seeds and names; pixels depend on nothing else but scene, positions, camera and
+/// settings.
 struct FrameInfo {
   int frame = 0;
   double time = 0.0;  // [s]
@@ -21,7 +22,7 @@ struct FrameInfo {
 
 /// A back end. Not for use by two threads at once; a renderer is used by the thread that made it.
 class Renderer {
- public:
+public:
   virtual ~Renderer() = default;
   virtual std::string_view name() const = 0;
   /// Takes the scene: geometry, materials, lights. Throws SettingsError or DeviceError.
@@ -36,8 +37,9 @@ class Renderer {
 
 std::vector<std::string> renderer_names();  // raster, path, null
 std::vector<std::string> channel_names();   // depth, ...
-/// `threads` bounds the back end's threads and never changes a pixel. Throws SettingsError for an unknown backend or channel
-/// (listing the valid ones) and for values out of range, DeviceError when the machine cannot.
+/// `threads` bounds the back end's threads and never changes a pixel. Throws SettingsError for an unknown
+/// backend or channel (listing the valid ones) and for values out of range, DeviceError when the machine
+/// cannot.
 std::unique_ptr<Renderer> make_renderer(const RenderSettings&, int threads);
 
 }  // namespace lagomorph::render

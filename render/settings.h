@@ -15,21 +15,21 @@ struct RasterSettings {
 
 /// Only the path tracer reads these, but `samples`.
 struct PathSettings {
-  int bounces = 4;           // indirect bounces after the first hit, 0 .. 64
-  std::uint32_t seed = 0;    // of the sample sequence
+  int bounces = 4;                         // indirect bounces after the first hit, 0 .. 64
+  std::uint32_t seed = 0;                  // of the sample sequence
   std::string filter = "blackman_harris";  // pixel reconstruction: box, gaussian, blackman_harris
   float filter_radius = 1.5F;              // [pixels], in (0, 4]
 };
 
 struct RenderSettings {
-  std::string backend = "raster";  // see renderer_names()
-  int width = 1280;                // [pixels], 1 .. 16384
-  int height = 720;                // likewise
-  int samples = 64;                // paths a pixel (path only), 1 .. 65536
-  std::string tone_curve = "agx_like";  // see tone_curve_names()
-  float exposure = 0.0F;                // stops: linear light times 2^exposure before the curve
-  int png_compression = 1;              // zlib level, 0 .. 12 (libdeflate's)
-  std::vector<std::string> channels;    // written beside the picture: "depth"; see channel_names()
+  std::string backend = "raster";          // see renderer_names()
+  int width = 1280;                        // [pixels], 1 .. 16384
+  int height = 720;                        // likewise
+  int samples = 64;                        // paths a pixel (path only), 1 .. 65536
+  std::string tone_curve = "pbr_neutral";  // see tone_curve_names()
+  float exposure = 0.0F;                   // stops: linear light times 2^exposure before the curve
+  int png_compression = 1;                 // zlib level, 0 .. 12 (libdeflate's)
+  std::vector<std::string> channels;       // written beside the picture: "depth"; see channel_names()
   RasterSettings raster;
   PathSettings path;
 };

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
+
+#include <Eigen/Core>
 
 namespace lagomorph::render {
 

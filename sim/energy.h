@@ -9,7 +9,7 @@ namespace lagomorph::sim {
 
 /// A term of the potential V(q). One virtual call a term, never one an element.
 class Energy {
- public:
+public:
   virtual ~Energy() = default;
   virtual std::string_view name() const = 0;
   /// V(q) [J]; +inf where the energy is not defined (a lecture Neo-Hookean element with J <= 0).

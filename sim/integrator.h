@@ -11,11 +11,11 @@
 namespace lagomorph::sim {
 
 enum class StepStatus {
-  converged,           // |g_free| met the tolerance
-  rounding_floor,      // stagnated within 10 times of what rounding lets the residual reach: converged, and told
-  not_converged,       // iterations ran out, or stagnation above the floor
-  not_positive,        // no positive definite system could be had
-  not_finite,          // NaN or infinity
+  converged,       // |g_free| met the tolerance
+  rounding_floor,  // stagnated within 10 times of what rounding lets the residual reach: converged, and told
+  not_converged,   // iterations ran out, or stagnation above the floor
+  not_positive,    // no positive definite system could be had
+  not_finite,      // NaN or infinity
 };
 std::string_view to_string(StepStatus);
 inline bool is_good(StepStatus s) { return s == StepStatus::converged || s == StepStatus::rounding_floor; }
@@ -28,9 +28,10 @@ struct StepReport {
   double h = 0.0;         // step [s]
 };
 
-/// An implicit (or explicit) scheme. Holds no state of the motion: only factors and buffers that are made again.
+/// An implicit (or explicit) scheme. Holds no state of the motion: only factors and buffers that are made
+/// again.
 class Integrator {
- public:
+public:
   virtual ~Integrator() = default;
   virtual std::string_view name() const = 0;
   virtual int history_levels() const = 0;  // levels beyond the current one that a State must carry
@@ -53,11 +54,13 @@ struct FrameReport {
   std::string reason;  // one line, when status is not good
 };
 
-/// Advances the state from its frame to the next, at exactly t = (frame + 1) / fps, by `substeps` steps; a step that does not
-/// converge is halved up to `max_halvings` times. On a bad status the state is left at its frame.
+/// Advances the state from its frame to the next, at exactly t = (frame + 1) / fps, by `substeps` steps; a
+/// step that does not converge is halved up to `max_halvings` times. On a bad status the state is left at its
+/// frame.
 FrameReport advance_frame(const Model&, Integrator&, const TimeSettings&, const SolverSettings&, State&);
 
-/// What the linear algebra underneath is, for run.json: CHOLMOD's and OpenBLAS's versions, kernel (core type), threads.
+/// What the linear algebra underneath is, for run.json: CHOLMOD's and OpenBLAS's versions, kernel (core
+/// type), threads.
 struct LinearAlgebraInfo {
   std::string cholmod, blas, blas_kernel;
   int blas_threads = 1;

@@ -8,10 +8,12 @@
 
 namespace lagomorph::sim {
 
-/// Checks counts, index ranges, finite numbers, orientation, stray and coincident vertices. A mesh inverted throughout is turned and
-/// remarked; single inverted or flat tets, stray vertices, indices out of range, NaN throw InputError. `origin` is the file's name.
+/// Checks counts, index ranges, finite numbers, orientation, stray and coincident vertices. A mesh inverted
+/// throughout is turned and remarked; single inverted or flat tets, stray vertices, indices out of range, NaN
+/// throw InputError. `origin` is the file's name.
 void check_tet_mesh(TetMesh&, const std::string& origin, Remarks&);
-/// Index ranges, finite numbers, degenerate triangles; remarks when the surface is not closed or not consistently oriented.
+/// Index ranges, finite numbers, degenerate triangles; remarks when the surface is not closed or not
+/// consistently oriented.
 void check_tri_mesh(TriMesh&, const std::string& origin, Remarks&);
 
 /// Merges coincident vertices (exactly equal positions; STL repeats each). Returns how many went.
@@ -19,14 +21,14 @@ int weld(TriMesh&);
 
 /// For `info` and assets/README.md.
 struct TetMeshQuality {
-  double volume = 0.0;               // [m^3]
+  double volume = 0.0;  // [m^3]
   double min_dihedral_degrees = 0.0;
   double max_dihedral_degrees = 0.0;
-  double volume_ratio = 0.0;         // smallest over largest tet volume
-  double worst_radius_ratio = 0.0;   // 3 r_in / r_circum, 1 for the regular tet; the smallest
+  double volume_ratio = 0.0;                    // smallest over largest tet volume
+  double worst_radius_ratio = 0.0;              // 3 r_in / r_circum, 1 for the regular tet; the smallest
   Vec3 min = Vec3::Zero(), max = Vec3::Zero();  // bounding box [m]
   int boundary_triangles = 0;
-  bool closed = true;                // each boundary edge has two triangles
+  bool closed = true;  // each boundary edge has two triangles
 };
 TetMeshQuality quality(const TetMesh&);
 

@@ -19,7 +19,8 @@ struct BodyInput {
   BodySettings settings;
 };
 
-/// A full mechanical state at a frame: a value. History holds what a multistep integrator needs, newest first.
+/// A full mechanical state at a frame: a value. History holds what a multistep integrator needs, newest
+/// first.
 struct State {
   int frame = 0;
   double t = 0.0;  // [s]
@@ -42,21 +43,21 @@ struct Energies {
 
 /// Mesh, mass matrix, energies and pins of a scene. Immutable once built.
 class Model {
- public:
+public:
   /// Places the bodies, merges them, selects the pins, builds M. Throws InputError.
   Model(std::vector<BodyInput> bodies, const Vec3& gravity);
 
   const TetMesh& mesh() const { return mesh_; }
-  const SparseMatrix& mass() const { return M_; }    // M, 3n×3n [kg]
+  const SparseMatrix& mass() const { return M_; }     // M, 3n×3n [kg]
   const VecX& gravity_force() const { return f_g_; }  // M (g, g, ...), 3n [N]
   const Pins& pins() const { return pins_; }
   const std::vector<std::unique_ptr<Energy>>& energies() const { return energies_; }  // elasticity, gravity
-  State initial_state() const;                                                      // q = X, velocities of the scene
+  State initial_state() const;  // q = X, velocities of the scene
   Energies energies_of(const State&) const;
   Vec3 momentum(const State&) const;  // Σ (M q̇) by axis [kg m/s]
   double total_mass() const;          // [kg]
 
- private:
+private:
   TetMesh mesh_;
   SparseMatrix M_;
   VecX f_g_;

@@ -1,8 +1,8 @@
 #include "sim/parallel.h"
 
-#include <tbb/global_control.h>
-
 #include <cstddef>
+
+#include <tbb/global_control.h>
 
 namespace lagomorph::sim {
 

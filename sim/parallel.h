@@ -4,13 +4,13 @@ namespace lagomorph::sim {
 
 /// Bounds the threads of the whole process's task pool while it lives. Results never depend on it.
 class ThreadLimit {
- public:
+public:
   explicit ThreadLimit(int threads);  // >= 1
   ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;
   ThreadLimit& operator=(const ThreadLimit&) = delete;
 
- private:
+private:
   void* control_;
 };
 

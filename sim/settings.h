@@ -7,10 +7,12 @@
 
 #include "sim/types.h"
 
-/// What a scene says of the physics, as plain structs with defaults. SI units. Names are those of the scene file.
+/// What a scene says of the physics, as plain structs with defaults. SI units. Names are those of the scene
+/// file.
 namespace lagomorph::sim {
 
-/// Give (young, poisson), or (mu, lambda), or for `neo_hookean` (C, D). With none, young = 1e5 Pa and poisson = 0.3.
+/// Give (young, poisson), or (mu, lambda), or for `neo_hookean` (C, D). With none, young = 1e5 Pa and poisson
+/// = 0.3.
 struct MaterialSettings {
   std::string model = "stable_neo_hookean";  // see material_names()
   std::optional<double> young;               // Young's modulus [Pa], > 0
@@ -28,7 +30,8 @@ struct SphereSelector {
   Vec3 center;    // [m]
   double radius;  // [m]
 };
-/// Vertices on the side of the plane that the normal points away from are not selected: (X - point)·normal >= 0 is.
+/// Vertices on the side of the plane that the normal points away from are not selected: (X - point)·normal >=
+/// 0 is.
 struct PlaneSelector {
   Vec3 point;   // [m]
   Vec3 normal;  // need not be of unit length
@@ -50,10 +53,10 @@ struct BodySettings {
   double density = 1000.0;          // [kg/m^3], > 0
   std::string mass = "consistent";  // or "lumped"
   MaterialSettings material;
-  double scale = 1.0;                // > 0
-  Vec3 rotate = Vec3::Zero();        // Euler angles about the fixed x, then y, then z axis [degrees]
-  Vec3 translate = Vec3::Zero();     // [m]
-  Vec3 velocity = Vec3::Zero();      // initial velocity [m/s]; pinned vertices start at rest
+  double scale = 1.0;             // > 0
+  Vec3 rotate = Vec3::Zero();     // Euler angles about the fixed x, then y, then z axis [degrees]
+  Vec3 translate = Vec3::Zero();  // [m]
+  Vec3 velocity = Vec3::Zero();   // initial velocity [m/s]; pinned vertices start at rest
   std::vector<PinSettings> pin;
 };
 
@@ -66,11 +69,12 @@ struct TimeSettings {
 };
 
 struct SolverSettings {
-  double tolerance = 1e-6;       // Newton stops at |g_free| <= tolerance * |(M g)_free|, in (0, 1)
-  int max_iterations = 100;      // Newton iterations a step, >= 1
-  int max_halvings = 8;          // how often a step that does not converge is halved, >= 0
-  std::string hessian = "auto";  // "auto": exact while its Cholesky factorization succeeds, else projected; "projected"
-  int blas_threads = 1;          // OpenBLAS threads in CHOLMOD; part of the result's bits, so of the scene
+  double tolerance = 1e-6;   // Newton stops at |g_free| <= tolerance * |(M g)_free|, in (0, 1)
+  int max_iterations = 100;  // Newton iterations a step, >= 1
+  int max_halvings = 8;      // how often a step that does not converge is halved, >= 0
+  std::string hessian =
+      "auto";  // "auto": exact while its Cholesky factorization succeeds, else projected; "projected"
+  int blas_threads = 1;  // OpenBLAS threads in CHOLMOD; part of the result's bits, so of the scene
 };
 
 }  // namespace lagomorph::sim

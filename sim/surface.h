@@ -7,24 +7,25 @@
 
 namespace lagomorph::sim {
 
-/// Triangles that are drawn, and what moves them: x_surface = W x_tets, with W sparse (one entry of 1 a row for the
-/// boundary of the tets, φ_i of the tet that holds it for a vertex of an embedded fine mesh).
+/// Triangles that are drawn, and what moves them: x_surface = W x_tets, with W sparse (one entry of 1 a row
+/// for the boundary of the tets, φ_i of the tet that holds it for a vertex of an embedded fine mesh).
 class Surface {
- public:
+public:
   /// Boundary triangles of one body, outward, with their own compact vertex numbering.
   static Surface boundary(const TetMesh&, int body);
-  /// A fine mesh (in world coordinates of the rest shape) carried by body's tets. Throws InputError when a fine vertex lies
-  /// outside of the tets by more than `max_outside` of the body's bounding-box diagonal: names the vertex, its distance, the limit.
+  /// A fine mesh (in world coordinates of the rest shape) carried by body's tets. Throws InputError when a
+  /// fine vertex lies outside of the tets by more than `max_outside` of the body's bounding-box diagonal:
+  /// names the vertex, its distance, the limit.
   static Surface embedded(const TetMesh&, int body, const TriMesh& fine, double max_outside = 0.01);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
   int vertex_count() const { return static_cast<int>(W_.rows()); }
-  int outside_count() const { return outside_count_; }     // fine vertices outside of every tet (extrapolated)
-  double outside_distance() const { return outside_; }     // the largest distance of one [m]
+  int outside_count() const { return outside_count_; }  // fine vertices outside of every tet (extrapolated)
+  double outside_distance() const { return outside_; }  // the largest distance of one [m]
   /// x = W x_tets, vertex_count×3 [m].
   Points positions(const VecX& q) const;
 
- private:
+private:
   using Weights = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
   std::vector<Triangle> triangles_;
   Weights W_;  // vertex_count × tet-mesh vertex count

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <array>
 #include <cstddef>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 namespace lagomorph::sim {
 
