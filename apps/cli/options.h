@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lagomorph::apps {
+
+/// Inclusive range of frames, `--frames A..B` or `--frames N`.
+struct FrameRange {
+  int first = 0;
+  int last = 0;
+};
+
+/// The command line of every command: options have one meaning everywhere.
+struct Options {
+  std::string command;                        // run, simulate, render, info, ...
+  std::vector<std::string> inputs;            // SCENE.toml, RUN, FILE as given
+  std::optional<std::filesystem::path> out;   // -o, --out
+  std::vector<std::string> set;               // --set, in order
+  std::optional<FrameRange> frames;           // --frames
+  std::optional<std::string> backend;         // --backend
+  int threads = 0;                            // --threads; 0: as many as the process may use
+  bool video = false;                         // --video
+  bool force = false;                         // --force
+  bool quiet = false;                         // --quiet
+  bool json = false;                          // --json
+  std::optional<std::filesystem::path> mend;  // info --mend OUT: drop stray vertices
+  bool keys = false;                          // info --keys: the table of scene keys
+};
+
+}  // namespace lagomorph::apps

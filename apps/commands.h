@@ -1,0 +1,15 @@
+#pragma once
+
+#include "apps/cli/options.h"
+#include "apps/error.h"
+
+/// One function a command; each returns the exit status or throws Error (apps), InputError (sim),
+/// SettingsError, DeviceError (render), which main maps to the contract's statuses and one line.
+namespace lagomorph::apps {
+
+ExitStatus run_command(const Options&);       // run/commands: simulate and render
+ExitStatus simulate_command(const Options&);  // states and energies only
+ExitStatus render_command(const Options&);    // pictures from RUN's states
+ExitStatus info_command(const Options&);      // what a mesh, a scene or a run is
+
+}  // namespace lagomorph::apps

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/camera.h"
+#include "render/render_scene.h"
+#include "render/settings.h"
+#include "sim/settings.h"
+
+namespace lagomorph::apps {
+
+/// What of a body is drawn.
+struct SurfaceDesc {
+  std::string
+      mesh;  // fine mesh to embed (OBJ, OFF, PLY, STL), placed as the body is; empty: the tets' boundary
+  double max_outside =
+      0.01;  // of the body's bounding-box diagonal; a fine vertex further outside of the tets is an error
+  bool smooth = true;  // smooth normals; false: one a triangle
+};
+
+struct BodyDesc {
+  sim::BodySettings physics;
+  std::string mesh;       // tet mesh; relative to the scene file (or to RUN, for RUN/scene.toml)
+  SurfaceDesc surface;    // [body.surface]
+  render::Material look;  // [body.look]
+};
+
+/// A scene file as plain values, every default filled in. What the file says, not yet what it makes.
+struct SceneDesc {
+  std::string name;
+  sim::TimeSettings time;                   // [time]
+  sim::SolverSettings solver;               // [solver]
+  std::vector<BodyDesc> body;               // [[body]]
+  render::CameraSettings camera;            // [camera]
+  render::RenderSettings render;            // [render], [render.raster], [render.path]
+  render::Ground ground;                    // [ground]
+  std::vector<render::AreaLight> light;     // [[light]]; none in the file: one key light by default
+  render::Sky sky;                          // [sky]
+  std::optional<render::Color> background;  // [background] color = [r, g, b], linear
+  std::filesystem::path directory;          // of the scene file: what relative paths in it are relative to
+};
+
+}  // namespace lagomorph::apps
