@@ -1,0 +1,55 @@
+# Shared by apps/bunny.sh and tests/run.sh; sourced, not run. Installs what is missing and builds.
+# `root` is set by the caller: the folder of this checkout.
+
+say() { printf '== %s\n' "$*"; }
+fail() { printf 'lagomorph: error: %s\n' "$1" >&2; exit "${2:-4}"; }
+
+# packages SECTION...: the names in those sections of packages.txt.
+packages() {
+  local section wanted name rest
+  while read -r name rest; do
+    case $name in
+      '' | '#'*) ;;
+      '['*) section=${name//[\[\]]/} ;;
+      *) for wanted; do [ "$section" = "$wanted" ] && printf '%s\n' "$name"; done ;;
+    esac
+  done <"$root/apps/packages.txt"
+}
+
+# install_packages SECTION...: apt-get for those that are not there. Says nothing when all are.
+install_packages() {
+  local wanted missing as_root=()
+  [ "${LAGOMORPH_SKIP_INSTALL:-0}" = 1 ] && return
+  wanted=$(packages "$@")
+  command -v apt-get >/dev/null && command -v dpkg-query >/dev/null ||
+    fail "apt is not here: install these yourself, then set LAGOMORPH_SKIP_INSTALL=1: $(echo $wanted)"
+  # shellcheck disable=SC2086
+  missing=$(comm -23 <(sort -u <<<"$wanted") \
+    <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' $wanted 2>/dev/null | sed -n 's/^installed //p' | sort -u))
+  [ -z "$missing" ] && return
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null ||
+      fail "not root and no sudo; as root run: apt-get install -y --no-install-recommends $(echo $missing)"
+    as_root=(sudo)
+  fi
+  say "installing $(echo $missing)"
+  "${as_root[@]}" apt-get update -qq || fail "apt-get update failed; is there a network?"
+  # shellcheck disable=SC2086
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null ||
+    fail "apt-get could not install: $(echo $missing)"
+}
+
+# build PRESET [TARGET...]: configures once, then lets Ninja find what changed.
+build() {
+  local preset=$1 tree=$root/out/build/$1 log
+  shift
+  if [ ! -f "$tree/build.ninja" ]; then
+    say "configuring $preset"
+    (cd "$root" && cmake --preset "$preset" >"${log:=$(mktemp)}" 2>&1) || { cat "$log" >&2; rm -f "$log"; fail "cmake failed"; }
+    rm -f "$log"
+  fi
+  # A dry run costs a tenth of a second and tells whether there is anything to say.
+  if ninja -C "$tree" -n "$@" 2>/dev/null | tail -n 1 | grep -q 'no work to do'; then return; fi
+  say "building $preset"
+  ninja -C "$tree" "$@" || fail "the build failed"
+}
