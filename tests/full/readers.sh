@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# What the program writes, read by others: states by numpy, meshes by meshio and Gmsh, pictures by pngcheck, video by ffprobe.
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+"$program" run "$root/assets/scenes/cantilever.toml" --frames 0..2 --video --out run --quiet \
+  --set render.width=160 --set render.height=90 --set 'render.channels=["depth"]'
+for extension in msh mesh vtk vtu; do
+  "$program" info run/mesh.msh --mend "mesh.$extension" --quiet >/dev/null
+done
+/usr/bin/python3 - <<'PY' || fail "numpy or meshio"
+import json, meshio, numpy as np
+meshes = [meshio.read(f"mesh.{e}") for e in ("msh", "mesh", "vtk", "vtu")] + [meshio.read("run/mesh.msh")]
+for m in meshes[1:]:
+    assert np.array_equal(m.points, meshes[0].points), "points differ between formats"
+    assert np.array_equal(np.vstack([c.data for c in m.cells if c.type == "tetra"]),
+                          np.vstack([c.data for c in meshes[0].cells if c.type == "tetra"])), "tets differ between formats"
+n = len(meshes[0].points)
+state = np.load("run/states/frame_0002.npy")
+assert state.dtype == np.float64 and state.shape[1:] == (2, n, 3), state.shape
+depth = np.load("run/aov/depth/frame_0002.npy")
+assert depth.dtype == np.float32 and depth.shape == (90, 160) and np.isfinite(depth).any(), depth.shape
+run = json.load(open("run/run.json"))
+energy = np.genfromtxt("run/energy.csv", delimiter=",", names=True)
+assert len(energy) == 3 and energy["frame"].tolist() == [0, 1, 2]
+assert np.allclose(energy["kinetic"] + energy["elastic"] + energy["gravitational"], energy["total"], rtol=1e-12, atol=1e-9)
+PY
+gmsh -check run/mesh.msh >gmsh.log 2>&1 || { cat gmsh.log; fail "Gmsh does not read mesh.msh"; }
+pngcheck -q run/frames/*.png || fail "pngcheck"
+ffprobe -v error -show_entries stream=codec_name,pix_fmt,nb_frames -of csv=p=0 run/*.mp4 | tee probe.txt
+grep -qx 'h264,yuv420p,3' probe.txt || fail "the video is not three frames of H.264 in yuv420p"
