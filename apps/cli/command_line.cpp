@@ -1,0 +1,295 @@
+#include "apps/cli/command_line.h"
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "apps/commands.h"
+#include "apps/nearest.h"
+#include "apps/version.h"
+#include "render/renderer.h"
+
+namespace lagomorph::apps {
+namespace {
+
+constexpr int most_threads = 1024;
+
+[[noreturn]] void wrong_usage(const std::string& what) { throw Error(ExitStatus::wrong_input, what); }
+
+struct CommandRow {
+  const char* name;
+  const char* input;  // what it takes, as in the usage line
+  const char* meaning;
+  const char* example;
+  ExitStatus (*run)(const Options&);
+};
+constexpr CommandRow commands[] = {
+    {"run", "SCENE.toml", "simulate and render a scene into RUN, by default out/<scene name>",
+     "lagomorph run bunny --frames 0..29 --backend path -o out/short", run_command},
+    {"simulate", "SCENE.toml", "simulate only: states and energies into RUN",
+     "lagomorph simulate scenes/bar.toml --set body.0.density=500", simulate_command},
+    {"render", "RUN", "draw pictures from the states of a run",
+     "lagomorph render out/bunny --set camera.fov=25 -o out/closer", render_command},
+    {"info", "FILE", "tell what a mesh, a scene or a run is", "lagomorph info meshes/bunny.msh --json",
+     info_command},
+};
+
+struct OptionRow {
+  const char* flags;     // as CLI11 takes them
+  const char* value;     // what it takes; nullptr for a flag
+  const char* commands;  // that know it, between spaces
+  const char* meaning;
+  void (*apply)(Options&, const std::string&);
+};
+
+std::string non_empty(const std::string& value, const char* option) {
+  if (value.empty()) wrong_usage(fmt::format("{} is empty", option));
+  return value;
+}
+
+void apply_set(Options& o, const std::string& value) {
+  const std::size_t equals = value.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    wrong_usage(fmt::format("--set {}: must be key.path=VALUE, as in --set time.fps=24", value));
+  }
+  o.set.push_back(value);
+}
+
+void apply_backend(Options& o, const std::string& value) {
+  const std::vector<std::string> names = render::renderer_names();
+  if (std::find(names.begin(), names.end(), value) == names.end()) {
+    const std::string near = nearest(value, names);
+    wrong_usage(fmt::format("--backend {}: must be raster or path{}", value,
+                            near.empty() || near == "null" ? "" : "; did you mean '" + near + "'?"));
+  }
+  o.backend = value;
+}
+
+void apply_threads(Options& o, const std::string& value) {
+  int n = 0;
+  const char* end = value.data() + value.size();
+  const auto [stop, error] = std::from_chars(value.data(), end, n);
+  if (error != std::errc() || stop != end || n < 1 || n > most_threads) {
+    wrong_usage(fmt::format("--threads {}: must be a whole number in 1 .. {}", value, most_threads));
+  }
+  o.threads = n;
+}
+
+constexpr OptionRow option_rows[] = {
+    {"-o,--out", "DIR", " run simulate render ", "where the run is written",
+     [](Options& o, const std::string& v) { o.out = non_empty(v, "--out"); }},
+    {"--set", "KEY=VALUE", " run simulate render info ",
+     "a scene key, as in body.0.density=500; VALUE is TOML or a string", apply_set},
+    {"--frames", "A..B", " run simulate render ", "only pictures A to B, both included; or one number",
+     [](Options& o, const std::string& v) { o.frames = parse_frames(v); }},
+    {"--backend", "NAME", " run render ", "raster or path, instead of the scene's", apply_backend},
+    {"--threads", "N", " run simulate render info ", "at most N threads; never changes a result",
+     apply_threads},
+    {"--video", nullptr, " run render ", "also make RUN/<name>.mp4 of the pictures",
+     [](Options& o, const std::string&) { o.video = true; }},
+    {"--force", nullptr, " run simulate render ", "make anew what is there but does not match the scene",
+     [](Options& o, const std::string&) { o.force = true; }},
+    {"--mend", "OUT", " info ", "write the tet mesh without its stray vertices to OUT",
+     [](Options& o, const std::string& v) { o.mend = non_empty(v, "--mend"); }},
+    {"--keys", nullptr, " info ", "print the table of scene keys",
+     [](Options& o, const std::string&) { o.keys = true; }},
+    {"--quiet", nullptr, " run simulate render info ", "no progress, only errors",
+     [](Options& o, const std::string&) { o.quiet = true; }},
+    {"--json", nullptr, " run simulate render info ", "print the result as JSON on stdout",
+     [](Options& o, const std::string&) { o.json = true; }},
+};
+
+bool knows(const CommandRow& command, const OptionRow& option) {
+  return std::string_view(option.commands).find(fmt::format(" {} ", command.name)) != std::string_view::npos;
+}
+
+std::string long_name(const OptionRow& option) {
+  const std::string_view flags = option.flags;
+  return std::string(flags.substr(flags.find("--")));
+}
+
+constexpr char statuses[] =
+    "Exit status: 0 done; 2 wrong usage or input; 3 the simulation could not go on; 4 the machine failed\n"
+    "(disk full, no ffmpeg); 130 or 143 interrupted.\n";
+
+std::string usage(const CommandRow& command) {
+  return fmt::format("lagomorph {} {} [options]", command.name, command.input);
+}
+
+std::string option_line(std::string flags, const char* value, const char* meaning) {
+  if (flags.starts_with("-o,")) flags = "-o, --out";
+  return fmt::format("  {:<18}{}\n", value != nullptr ? flags + " " + value : flags, meaning);
+}
+
+std::string command_help(const CommandRow& command) {
+  std::string text = fmt::format("Usage: {}\n{}.\n\nOptions:\n", usage(command), command.meaning);
+  text[text.find('\n') + 1] = static_cast<char>(std::toupper(command.meaning[0]));
+  for (const OptionRow& row : option_rows) {
+    if (knows(command, row)) text += option_line(row.flags, row.value, row.meaning);
+  }
+  text += option_line("--help", nullptr, "this text");
+  text += option_line("--version", nullptr, "the program's version");
+  return text + fmt::format("\nExample: {}\n{}", command.example, statuses);
+}
+
+const CommandRow& find_command(const std::string& name) {
+  std::vector<std::string> names;
+  for (const CommandRow& row : commands) {
+    if (name == row.name) return row;
+    names.emplace_back(row.name);
+  }
+  if (name.starts_with("-")) {
+    wrong_usage(fmt::format("'{}' where a command is expected ({}); options follow the command", name,
+                            joined(names)));
+  }
+  const std::string near = nearest(name, names);
+  wrong_usage(fmt::format("unknown command '{}'; {}commands are {}", name,
+                          near.empty() ? "" : "did you mean '" + near + "'? ", joined(names)));
+}
+
+[[noreturn]] void unknown_option(const CommandRow& command, const std::string& argument) {
+  const std::string name = argument.substr(0, argument.find('='));
+  std::vector<std::string> known = {"--help", "--version"};
+  for (const OptionRow& row : option_rows) {
+    if (knows(command, row)) {
+      known.push_back(long_name(row));
+    } else if (name == long_name(row)) {
+      std::string where;
+      for (const CommandRow& other : commands) {
+        if (knows(other, row)) where += (where.empty() ? "" : ", ") + std::string(other.name);
+      }
+      wrong_usage(fmt::format("'{}' is no option of {}, only of: {}", name, command.name, where));
+    }
+  }
+  const std::string near = nearest(name, known);
+  wrong_usage(fmt::format("unknown option '{}' of {}; {}", name, command.name,
+                          near.empty() ? "known are " + joined(known) : "did you mean '" + near + "'?"));
+}
+
+/// CLI11 says `--out: 1 required TEXT missing`; its other messages are about options that have no such rows.
+[[noreturn]] void map_parse_error(const CommandRow& command, const CLI::ParseError& error) {
+  const std::string message = error.what();
+  for (const OptionRow& row : option_rows) {
+    if (row.value != nullptr && message.starts_with(long_name(row) + ":")) {
+      wrong_usage(fmt::format("{} needs a value: {} {}", long_name(row), long_name(row), row.value));
+    }
+  }
+  wrong_usage(fmt::format("{} (usage: {})", message, usage(command)));
+}
+
+/// What CLI11 did not take: inputs, and options that nobody knows.
+std::vector<std::string> inputs_of(const CommandRow& command, const std::vector<std::string>& remaining) {
+  std::vector<std::string> inputs;
+  bool only_inputs = false;
+  for (const std::string& argument : remaining) {
+    if (!only_inputs && argument == "--") {
+      only_inputs = true;
+    } else if (!only_inputs && argument.size() > 1 && argument.starts_with("-")) {
+      unknown_option(command, argument);
+    } else {
+      inputs.push_back(non_empty(argument, command.input));
+    }
+  }
+  return inputs;
+}
+
+void check_inputs(const CommandRow& command, const Options& options) {
+  const std::size_t needed = options.keys ? 0 : 1;
+  if (options.inputs.size() < needed) {
+    wrong_usage(fmt::format("{} needs a {}: {}", command.name, command.input, usage(command)));
+  }
+  if (options.inputs.size() > needed) {
+    wrong_usage(fmt::format("unexpected argument '{}': {}", options.inputs[needed], usage(command)));
+  }
+}
+
+}  // namespace
+
+FrameRange parse_frames(const std::string& text) {
+  const auto number = [&](std::string_view digits) {
+    int n = -1;
+    const char* end = digits.data() + digits.size();
+    const auto [stop, error] = std::from_chars(digits.data(), end, n);
+    if (error != std::errc() || stop != end || n < 0) {
+      wrong_usage(fmt::format("--frames {}: must be A..B or one number, counted from 0", text));
+    }
+    return n;
+  };
+  const std::string_view all = text;
+  const std::size_t dots = all.find("..");
+  if (dots == std::string_view::npos) {
+    const int n = number(all);
+    return {n, n};
+  }
+  const FrameRange range{number(all.substr(0, dots)), number(all.substr(dots + 2))};
+  if (range.first > range.last) {
+    wrong_usage(fmt::format("--frames {}: the first frame, {}, is after the last, {}", text, range.first,
+                            range.last));
+  }
+  return range;
+}
+
+std::string program_help() {
+  std::string text =
+      "Usage: lagomorph COMMAND [options]\n"
+      "Animates hyperelastic tetrahedral meshes, from a scene file to pictures, on a machine without a "
+      "display.\n"
+      "\nCommands:\n";
+  for (const CommandRow& row : commands) {
+    text += fmt::format("  {:<21}{}\n", fmt::format("{} {}", row.name, row.input), row.meaning);
+  }
+  text += "  COMMAND --help       the options of a command\n  --version            the program's version\n";
+  return text + "\nExample: lagomorph run bunny --video\n" + statuses;
+}
+
+CommandLine parse_command_line(std::span<const std::string> arguments) {
+  if (arguments.empty()) wrong_usage("no command given; lagomorph --help lists them");
+  if (arguments[0] == "-h" || arguments[0] == "--help") return {.text = program_help()};
+  const std::string version_text = fmt::format("lagomorph {}\n", version());
+  if (arguments[0] == "--version") return {.text = version_text};
+  const CommandRow& command = find_command(arguments[0]);
+
+  CLI::App parser;
+  parser.allow_extras();
+  parser.set_help_flag("-h,--help");
+  bool wants_version = false;
+  parser.add_flag("--version", wants_version);
+  struct Given {
+    const OptionRow* row;
+    std::vector<std::string> values;
+    CLI::Option* option;
+  };
+  std::vector<std::unique_ptr<Given>> given;  // CLI11 keeps the addresses
+  for (const OptionRow& row : option_rows) {
+    if (!knows(command, row)) continue;
+    Given& g = *given.emplace_back(std::make_unique<Given>(Given{&row, {}, nullptr}));
+    g.option = row.value == nullptr ? parser.add_flag(row.flags)
+                                    : parser.add_option(row.flags, g.values)->expected(1)->take_all();
+  }
+  try {
+    // CLI11 takes them last first.
+    parser.parse(std::vector<std::string>(arguments.rbegin(), std::prev(arguments.rend())));
+  } catch (const CLI::CallForHelp&) {
+    return {.text = command_help(command)};
+  } catch (const CLI::ParseError& error) {
+    map_parse_error(command, error);
+  }
+  if (wants_version) return {.text = version_text};
+
+  CommandLine line{.text = {}, .command = command.run, .options = {}};
+  line.options.command = command.name;
+  line.options.inputs = inputs_of(command, parser.remaining());
+  for (const auto& g : given) {  // in order, so that of an option given twice the last wins
+    if (g->row->value == nullptr && g->option->count() > 0) g->row->apply(line.options, "");
+    for (const std::string& value : g->values) g->row->apply(line.options, value);
+  }
+  check_inputs(command, line.options);
+  return line;
+}
+
+}  // namespace lagomorph::apps

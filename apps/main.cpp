@@ -1,0 +1,68 @@
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "apps/cli/command_line.h"
+#include "apps/one_line.h"
+#include "render/error.h"
+#include "sim/error.h"
+
+namespace {
+
+using lagomorph::apps::ExitStatus;
+
+int fail(ExitStatus status, const std::string& what) {
+  std::fprintf(stderr, "lagomorph: error: %s\n", lagomorph::apps::one_line(what).c_str());
+  return static_cast<int>(status);
+}
+
+/// What is still buffered goes out now, where its failure can be told. A reader that left (`| head`) is none.
+void flush_stdout() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  if (errno == EPIPE) return;
+  throw lagomorph::apps::Error(ExitStatus::machine,
+                               std::string("standard output cannot be written: ") + std::strerror(errno));
+}
+
+int lagomorph_main(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) std::fputs(lagomorph::apps::program_help().c_str(), stdout);
+  const lagomorph::apps::CommandLine line = lagomorph::apps::parse_command_line(arguments);
+  ExitStatus status = ExitStatus::done;
+  if (line.text.empty()) {
+    status = line.command(line.options);
+  } else {
+    std::fputs(line.text.c_str(), stdout);
+  }
+  flush_stdout();
+  return static_cast<int>(status);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // a pipe that closed is an error of the write, told like any other
+  try {
+    return lagomorph_main({argv + (argc > 0 ? 1 : 0), argv + argc});
+  } catch (const lagomorph::apps::Error& e) {
+    return fail(e.status, e.what());
+  } catch (const lagomorph::sim::InputError& e) {
+    return fail(ExitStatus::wrong_input, e.what());
+  } catch (const lagomorph::render::SettingsError& e) {
+    return fail(ExitStatus::wrong_input, e.what());
+  } catch (const lagomorph::render::DeviceError& e) {
+    return fail(ExitStatus::machine, e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ExitStatus::machine, "out of memory");
+  } catch (const std::exception& e) {
+    return fail(ExitStatus::machine, e.what());
+  } catch (...) {
+    return fail(ExitStatus::machine, "unknown failure");
+  }
+}
