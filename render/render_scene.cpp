@@ -2,8 +2,95 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "render/error.h"
 
 namespace lagomorph::render {
+namespace {
+
+void check_range(const std::string& what, float value, float low, float high, const char* right) {
+  if (value >= low && value <= high) return;
+  throw SettingsError(what + " = " + std::to_string(value) + " must be " + right);
+}
+
+constexpr float largest = 1e6F;  // [m], [W/(sr m^2)]: beyond, single precision draws nothing sensible
+
+void check_color(const std::string& what, const Color& color, float high, const char* right) {
+  for (int i = 0; i < 3; ++i) check_range(what, color[i], 0.0F, high, right);
+}
+
+void check_point(const std::string& what, const Vec3& point) {
+  for (int i = 0; i < 3; ++i) check_range(what, point[i], -largest, largest, "finite, within 1e6 m");
+}
+
+void check_material(const std::string& what, const Material& m) {
+  check_color(what + " base_color", m.base_color, 1.0F, "in [0, 1]");
+  check_range(what + " roughness", m.roughness, 0.0F, 1.0F, "in [0, 1]");
+  check_range(what + " metallic", m.metallic, 0.0F, 1.0F, "in [0, 1]");
+  check_range(what + " ior", m.ior, 1.0F, 10.0F, "in [1, 10]");
+}
+
+void check_mesh(const Mesh& mesh, std::size_t index) {
+  const std::string what = "mesh " + (mesh.name.empty() ? std::to_string(index) : "'" + mesh.name + "'");
+  check_material(what, mesh.material);
+  if (mesh.body_id < 0)
+    throw SettingsError(what + " body_id = " + std::to_string(mesh.body_id) + " must be >= 0");
+  for (const Vec3& x : mesh.positions) check_point(what + " position", x);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      if (v < mesh.positions.size()) continue;
+      throw SettingsError(what + " triangle " + std::to_string(t) + " has vertex " + std::to_string(v) +
+                          "; it must be below the number of positions, " +
+                          std::to_string(mesh.positions.size()));
+    }
+  }
+}
+
+void check_light(const AreaLight& light, std::size_t index) {
+  const std::string what = "light " + std::to_string(index);
+  check_point(what + " position", light.position);
+  check_point(what + " look_at", light.look_at);
+  if (!((light.look_at - light.position).norm() > 0.0F))
+    throw SettingsError(what + " position and look_at must differ");
+  for (int i = 0; i < 2; ++i) {
+    if (!(light.size[i] > 0.0F && light.size[i] <= largest))
+      throw SettingsError(what + " size = " + std::to_string(light.size[i]) + " must be above 0 m");
+  }
+  check_color(what + " color", light.color, largest, "finite, >= 0");
+  check_range(what + " radiance", light.radiance, 0.0F, largest, "finite, >= 0");
+}
+
+void check_ground(const Ground& ground) {
+  check_material("ground", ground.material);
+  check_point("ground center", ground.center);
+  check_range("ground height", ground.height, -largest, largest, "finite, within 1e6 m");
+  if (!(ground.radius > 0.0F && ground.radius <= largest))
+    throw SettingsError("ground radius = " + std::to_string(ground.radius) + " must be above 0 m");
+  if (!(ground.fade_start >= 0.0F && ground.fade_start < ground.radius)) {
+    throw SettingsError("ground fade_start = " + std::to_string(ground.fade_start) +
+                        " must be >= 0 and below radius");
+  }
+}
+
+}  // namespace
+
+void check_scene(const RenderScene& scene) {
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) check_mesh(scene.meshes[i], i);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) check_light(scene.lights[i], i);
+  if (scene.ground.enabled) check_ground(scene.ground);
+  check_color("sky zenith", scene.sky.zenith, largest, "finite, >= 0");
+  check_color("sky horizon", scene.sky.horizon, largest, "finite, >= 0");
+  check_range("sky strength", scene.sky.strength, 0.0F, largest, "finite, >= 0");
+  if (scene.background) check_color("background", *scene.background, largest, "finite, >= 0");
+}
+
+LightFrame light_frame(const AreaLight& light) {
+  const Vec3 normal = (light.look_at - light.position).normalized();
+  const Vec3 upwards = std::abs(normal.y()) < 0.9999F ? Vec3::UnitY() : Vec3::UnitZ();
+  const Vec3 right = normal.cross(upwards).normalized();
+  return {right, right.cross(normal), normal};
+}
 
 Color sky_radiance(const Sky& sky, const Vec3& direction) {
   const float w = std::sqrt(std::max(direction.y(), 0.0F));

@@ -52,6 +52,12 @@ struct AreaLight {
   bool visible = false;    // seen by camera rays
 };
 
+/// The axes of a light's rectangle, unit vectors: width along `right`, height along `up`, shining along
+/// `normal`. `up` is as near to +y as can be, to +z for a light that shines straight up or down.
+struct LightFrame {
+  Vec3 right, up, normal;
+};
+
 /// Radiance by direction: horizon at and below y = 0, zenith straight up, blended by y^0.5; times strength.
 struct Sky {
   Color zenith = Color(0.55F, 0.70F, 0.95F);
@@ -67,6 +73,10 @@ struct RenderScene {
   std::optional<Color> background;  // what the camera sees where nothing is; the sky itself when not given
 };
 
+/// Throws SettingsError, naming the mesh, light or ground, the value and what would be right: indices, finite
+/// numbers, ranges of materials, sizes.
+void check_scene(const RenderScene&);
+LightFrame light_frame(const AreaLight&);
 /// Radiance that arrives from a unit direction of the sky.
 Color sky_radiance(const Sky&, const Vec3& direction);
 /// What the camera sees along a direction that hits nothing.
