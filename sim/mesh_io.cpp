@@ -1,0 +1,107 @@
+#include "sim/mesh_io.h"
+
+#include <algorithm>
+#include <array>
+
+#include "sim/error.h"
+#include "sim/io/formats.h"
+#include "sim/mesh_check.h"
+
+namespace lagomorph::sim {
+namespace {
+
+struct TetFormat {
+  std::string_view extension;
+  TetMesh (*read)(const io::File&, Remarks&);
+  std::string (*write)(const TetMesh&);
+  std::string_view partner;  // the other file of a pair
+};
+
+struct TriFormat {
+  std::string_view extension;
+  TriMesh (*read)(const io::File&, Remarks&);
+  std::string (*write)(const TriMesh&);
+};
+
+constexpr std::array kTetFormats = {
+    TetFormat{".mesh", io::read_medit, io::write_medit, ""},
+    TetFormat{".msh", io::read_gmsh, io::write_gmsh, ""},
+};
+
+constexpr std::array kTriFormats = {
+    TriFormat{".obj", io::read_obj, io::write_obj},
+};
+
+template <typename Table>
+std::vector<std::string> extensions_of(const Table& table) {
+  std::vector<std::string> extensions;
+  for (const auto& format : table) extensions.emplace_back(format.extension);
+  return extensions;
+}
+
+/// The row of an extension, in either case. `origin` and `kind` are for the error.
+template <typename Table>
+const auto& find_format(const Table& table, std::string_view extension, const std::string& origin,
+                        const std::string& kind) {
+  std::string lower(extension);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  for (const auto& format : table) {
+    if (format.extension == lower) return format;
+  }
+  std::string valid;
+  for (const auto& format : table) valid += (valid.empty() ? "" : ", ") + std::string(format.extension);
+  throw InputError(origin + ": unknown extension '" + std::string(extension) + "' for " + kind +
+                   "; valid are " + valid);
+}
+
+}  // namespace
+
+TetMesh read_tet_mesh(const std::filesystem::path& path, Remarks& remarks, const MeshChecks& checks) {
+  const TetFormat& format =
+      find_format(kTetFormats, path.extension().string(), path.string(), "a tetrahedral mesh");
+  TetMesh mesh = format.read(io::read_file(path), remarks);
+  mesh.bodies = {Body{path.stem().string(), {0, mesh.vertex_count()}, {0, mesh.tet_count()}}};
+  check_tet_mesh(mesh, path.string(), remarks, checks);
+  return mesh;
+}
+
+TriMesh read_tri_mesh(const std::filesystem::path& path, Remarks& remarks) {
+  const TriFormat& format = find_format(kTriFormats, path.extension().string(), path.string(), "a surface");
+  TriMesh mesh = format.read(io::read_file(path), remarks);
+  const int welded = weld(mesh);
+  if (welded > 0) {
+    remarks.push_back(path.string() + ": welded " + std::to_string(welded) +
+                      (welded == 1 ? " vertex" : " vertices") + " with others at the same place");
+  }
+  check_tri_mesh(mesh, path.string(), remarks);
+  return mesh;
+}
+
+std::string write_tet_mesh(const TetMesh& mesh, std::string_view extension, const MeshChecks& checks) {
+  const std::string origin = "tetrahedral mesh to write as " + std::string(extension);
+  const TetFormat& format = find_format(kTetFormats, extension, origin, "a tetrahedral mesh");
+  TetMesh checked = mesh;
+  Remarks remarks;
+  check_tet_mesh(checked, origin, remarks, checks);
+  return format.write(checked);
+}
+
+std::string write_tri_mesh(const TriMesh& mesh, std::string_view extension) {
+  const std::string origin = "surface to write as " + std::string(extension);
+  const TriFormat& format = find_format(kTriFormats, extension, origin, "a surface");
+  validate_tri_mesh(mesh, origin);
+  return format.write(mesh);
+}
+
+std::vector<std::string> tet_mesh_parts(std::string_view extension) {
+  const TetFormat& format = find_format(kTetFormats, extension, "mesh to write", "a tetrahedral mesh");
+  std::vector<std::string> parts{std::string(format.extension)};
+  if (!format.partner.empty()) parts.emplace_back(format.partner);
+  return parts;
+}
+
+std::vector<std::string> tet_mesh_extensions() { return extensions_of(kTetFormats); }
+std::vector<std::string> tri_mesh_extensions() { return extensions_of(kTriFormats); }
+
+}  // namespace lagomorph::sim
