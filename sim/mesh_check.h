@@ -8,13 +8,24 @@
 
 namespace lagomorph::sim {
 
-/// Checks counts, index ranges, finite numbers, orientation, stray and coincident vertices. A mesh inverted
-/// throughout is turned and remarked; single inverted or flat tets, stray vertices, indices out of range, NaN
-/// throw InputError. `origin` is the file's name.
-void check_tet_mesh(TetMesh&, const std::string& origin, Remarks&);
-/// Index ranges, finite numbers, degenerate triangles; remarks when the surface is not closed or not
-/// consistently oriented.
+/// Checks counts, index ranges, finite numbers, orientation, overlaps, stray and coincident vertices, and the
+/// surface. A mesh inverted throughout is turned and remarked; single inverted or flat tets (volume at most
+/// 1e-10 of the longest edge cubed), two tets on the same side of a face, stray vertices, indices out of
+/// range, NaN throw InputError. Coincident vertices and a surface that is not closed or not manifold are
+/// remarked. `origin` is the file's name.
+void check_tet_mesh(TetMesh&, const std::string& origin, Remarks&, const MeshChecks& = {});
+/// Index ranges and finite numbers throw InputError. Triangles with a corner twice and vertices of no
+/// triangle are dropped and remarked; triangles without area, a surface that is not closed, not manifold or
+/// not consistently oriented are remarked.
 void check_tri_mesh(TriMesh&, const std::string& origin, Remarks&);
+
+/// Only what makes a mesh unusable as data: counts, index ranges, finite numbers, ranges of bodies. Throw
+/// InputError.
+void validate_tet_mesh(const TetMesh&, const std::string& origin);
+void validate_tri_mesh(const TriMesh&, const std::string& origin);
+
+/// Removes vertices that no tet has. Returns how many went.
+int drop_stray_vertices(TetMesh&);
 
 /// Merges coincident vertices (exactly equal positions; STL repeats each). Returns how many went.
 int weld(TriMesh&);
