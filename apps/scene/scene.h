@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/scene/scene_desc.h"
@@ -12,6 +13,10 @@ namespace lagomorph::apps {
 /// Reads a scene file, applies `--set key.path=VALUE` in order, checks every key and range. Throws
 /// Error(wrong_input) with `file:line:column: ...`, or `--set key=value: ...` for an override.
 SceneDesc load_scene(const std::filesystem::path& file, std::span<const std::string> overrides);
+
+/// The same of a text, as if it stood in `file`; whether the files that it names are there is not checked.
+SceneDesc parse_scene(std::string_view text, const std::filesystem::path& file,
+                      std::span<const std::string> overrides);
 
 /// The scene as TOML with every key written out; parsing it gives the same description. Floats round-trip.
 std::string scene_to_toml(const SceneDesc&);

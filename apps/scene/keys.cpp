@@ -1,0 +1,384 @@
+#include "apps/scene/keys.h"
+
+#include <bit>
+
+#include <fmt/format.h>
+
+#include "apps/scene/choices.h"
+#include "render/renderer.h"
+
+namespace lagomorph::apps {
+namespace {
+
+constexpr Part simulation = Part::simulation;
+constexpr const char* pascal = "Pa";
+
+void visit_time(sim::TimeSettings& t, KeyVisitor& v) {
+  v.key({.name = "fps",
+         .unit = "1/s",
+         .bounds = above(0),
+         .part = simulation,
+         .meaning = "frames a second; frame k is at t = k / fps"},
+        &t.fps);
+  v.key({.name = "frames",
+         .bounds = at_least(1),
+         .part = Part::none,
+         .meaning = "pictures 0 .. frames - 1; frame 0 is the initial state"},
+        &t.frames);
+  v.key({.name = "substeps", .bounds = at_least(1), .part = simulation, .meaning = "steps a frame"},
+        &t.substeps);
+  v.key({.name = "integrator",
+         .part = simulation,
+         .meaning = "time-stepping scheme",
+         .choices = integrator_choices},
+        &t.integrator);
+  v.key({.name = "gravity", .unit = "m/s^2", .part = simulation, .meaning = "acceleration of free fall"},
+        &t.gravity);
+}
+
+void visit_solver(sim::SolverSettings& s, KeyVisitor& v) {
+  v.key({.name = "tolerance",
+         .bounds = inside(0, 1),
+         .part = simulation,
+         .meaning =
+             "Newton stops at |g_free| <= tolerance * |(M g)_free|, 2-norms; without gravity the largest "
+             "of the inertial and elastic parts instead"},
+        &s.tolerance);
+  v.key({.name = "max_iterations",
+         .bounds = at_least(1),
+         .part = simulation,
+         .meaning = "Newton iterations a step"},
+        &s.max_iterations);
+  v.key({.name = "max_halvings",
+         .bounds = between(0, 30),
+         .part = simulation,
+         .meaning = "how often a step that does not converge is halved before the run ends"},
+        &s.max_halvings);
+  v.key(
+      {.name = "hessian",
+       .part = simulation,
+       .meaning = "auto: exact while its Cholesky factorization succeeds, else projected element by element; "
+                  "projected: always",
+       .choices = hessian_choices},
+      &s.hessian);
+  v.key({.name = "blas_threads",
+         .bounds = between(1, 64),
+         .part = simulation,
+         .meaning = "threads of OpenBLAS inside CHOLMOD; part of the result's bits, so of the scene"},
+        &s.blas_threads);
+}
+
+void visit_material(sim::MaterialSettings& m, KeyVisitor& v) {
+  v.key({.name = "model",
+         .part = simulation,
+         .meaning = "energy density: neo_hookean is the lecture's, stable_neo_hookean is Smith 2018 without "
+                    "and stable_neo_hookean_log with the logarithm",
+         .choices = material_choices},
+        &m.model);
+  v.key({.name = "young",
+         .unit = pascal,
+         .bounds = above(0),
+         .part = simulation,
+         .meaning = "Young's modulus",
+         .default_note = "1e5, with no other modulus"},
+        &m.young);
+  v.key({.name = "poisson",
+         .bounds = inside(-1, 0.5),
+         .part = simulation,
+         .meaning = "Poisson's ratio",
+         .default_note = "0.3, with no other modulus"},
+        &m.poisson);
+  v.key({.name = "mu",
+         .unit = pascal,
+         .bounds = above(0),
+         .part = simulation,
+         .meaning = "shear modulus; with lambda, instead of young and poisson"},
+        &m.mu);
+  v.key({.name = "lambda",
+         .unit = pascal,
+         .part = simulation,
+         .meaning = "Lamé's first parameter, > -2/3 mu; with mu"},
+        &m.lambda);
+  v.key({.name = "C",
+         .unit = pascal,
+         .bounds = above(0),
+         .part = simulation,
+         .meaning = "the lecture's C = mu/2; with D, of neo_hookean, instead of young and poisson"},
+        &m.C);
+  v.key({.name = "D",
+         .unit = pascal,
+         .part = simulation,
+         .meaning = "the lecture's D = lambda/2, > -2/3 C; with C, of neo_hookean"},
+        &m.D);
+}
+
+void visit_pin(sim::PinSettings& p, KeyVisitor& v) {
+  v.key({.name = "vertices",
+         .bounds = at_least(0),
+         .part = simulation,
+         .meaning = "vertex numbers of the body, from 0, in file order"},
+        &p.vertices);
+  v.key(
+      {.name = "box",
+       .unit = "m",
+       .part = simulation,
+       .meaning = "[[x, y, z], [x, y, z]]: rest positions from the least to the greatest corner, inclusive"},
+      &p.box);
+  v.key({.name = "top",
+         .bounds = above_up_to(0, 1),
+         .part = simulation,
+         .meaning = "upper fraction of the rest bounding box along +y"},
+        &p.top);
+  v.key({.name = "bottom",
+         .bounds = above_up_to(0, 1),
+         .part = simulation,
+         .meaning = "lower fraction of the rest bounding box along +y"},
+        &p.bottom);
+  v.optional(
+      {.name = "sphere", .meaning = "rest positions inside a sphere", .is_inline = true}, p.sphere,
+      [](sim::SphereSelector& s, KeyVisitor& inside_sphere) {
+        inside_sphere.key(
+            {.name = "center", .unit = "m", .part = simulation, .meaning = "its centre", .required = true},
+            &s.center);
+        inside_sphere.key({.name = "radius",
+                           .unit = "m",
+                           .bounds = above(0),
+                           .part = simulation,
+                           .meaning = "its radius",
+                           .required = true},
+                          &s.radius);
+      });
+  v.optional(
+      {.name = "plane", .meaning = "rest positions X with (X - point) . normal >= 0", .is_inline = true},
+      p.plane, [](sim::PlaneSelector& s, KeyVisitor& inside_plane) {
+        inside_plane.key({.name = "point",
+                          .unit = "m",
+                          .part = simulation,
+                          .meaning = "a point of the plane",
+                          .required = true},
+                         &s.point);
+        inside_plane.key({.name = "normal",
+                          .part = simulation,
+                          .meaning = "towards the pinned side, of any length but 0",
+                          .required = true},
+                         &s.normal);
+      });
+}
+
+void visit_look(render::Material& m, KeyVisitor& v) {
+  v.key({.name = "base_color",
+         .bounds = between(0, 1),
+         .meaning = "linear RGB: diffuse albedo, or a metal's reflectance at normal incidence"},
+        &m.base_color);
+  v.key({.name = "roughness", .bounds = between(0, 1), .meaning = "perceptual; GGX alpha is its square"},
+        &m.roughness);
+  v.key({.name = "metallic",
+         .bounds = between(0, 1),
+         .meaning = "0 a dielectric over a diffuse base, 1 a metal"},
+        &m.metallic);
+  v.key({.name = "ior", .bounds = between(1, 10), .meaning = "index of refraction of the dielectric"},
+        &m.ior);
+}
+
+void visit_surface(SurfaceDesc& s, KeyVisitor& v) {
+  v.key({.name = "mesh",
+         .meaning =
+             "fine surface to embed (.obj, .off, .ply, .stl), placed as the body is; empty: the boundary "
+             "of the tets",
+         .file = true},
+        &s.mesh);
+  v.key({.name = "max_outside",
+         .bounds = at_least(0),
+         .meaning = "how far a fine vertex may lie outside of the tets, as a fraction of the body's "
+                    "bounding-box diagonal"},
+        &s.max_outside);
+  v.key({.name = "smooth", .meaning = "smooth normals; false: one a triangle"}, &s.smooth);
+}
+
+void visit_body(BodyDesc& b, KeyVisitor& v) {
+  sim::BodySettings& p = b.physics;
+  v.key({.name = "name",
+         .part = simulation,
+         .meaning = "of the body, in messages and files",
+         .default_note = "body0, body1, ..."},
+        &p.name);
+  v.key({.name = "mesh",
+         .part = simulation,
+         .meaning = "tet mesh (.mesh, .msh, .node or .ele, .vtk, .vtu), relative to the scene file",
+         .required = true,
+         .file = true},
+        &b.mesh);
+  v.key({.name = "density",
+         .unit = "kg/m^3",
+         .bounds = above(0),
+         .part = simulation,
+         .meaning = "mass density at rest"},
+        &p.density);
+  v.key({.name = "mass", .part = simulation, .meaning = "mass matrix", .choices = mass_choices}, &p.mass);
+  v.key({.name = "scale",
+         .bounds = above(0),
+         .part = simulation,
+         .meaning = "the rest shape is placed at translate + rotate(scale X)"},
+        &p.scale);
+  v.key({.name = "rotate",
+         .unit = "degrees",
+         .part = simulation,
+         .meaning = "about the fixed x, then y, then z axis"},
+        &p.rotate);
+  v.key({.name = "translate", .unit = "m", .part = simulation, .meaning = "of the rest shape"}, &p.translate);
+  v.key({.name = "velocity",
+         .unit = "m/s",
+         .part = simulation,
+         .meaning = "at the start; pinned vertices start at rest"},
+        &p.velocity);
+  v.one({.name = "material", .meaning = "what the body is made of", .is_inline = true}, p.material,
+        visit_material);
+  v.one({.name = "surface", .meaning = "what of the body is drawn"}, b.surface, visit_surface);
+  v.one({.name = "look", .meaning = "how the body is drawn"}, b.look, visit_look);
+  v.list(
+      {.name = "pin",
+       .meaning = "vertices held where they are at the start; several selectors of one pin select the union"},
+      p.pin, visit_pin);
+}
+
+void visit_camera(render::CameraSettings& c, KeyVisitor& v) {
+  v.key({.name = "position", .unit = "m", .meaning = "of the eye"}, &c.position);
+  v.key({.name = "look_at", .unit = "m", .meaning = "what is in the middle of the picture"}, &c.look_at);
+  v.key({.name = "up", .meaning = "what is up in the picture; not along the view"}, &c.up);
+  v.key({.name = "fov", .unit = "degrees", .bounds = inside(0, 180), .meaning = "vertical field of view"},
+        &c.fov);
+  v.key({.name = "orthographic",
+         .unit = "m",
+         .bounds = above(0),
+         .meaning = "height of the view; given, the projection is orthographic and fov has no effect"},
+        &c.orthographic);
+}
+
+void visit_raster(render::RasterSettings& r, KeyVisitor& v) {
+  v.key({.name = "multisample",
+         .meaning = "samples a pixel of the rasterizer",
+         .holds = [](double n) { return n == 1 || n == 4; },
+         .rule = "1 or 4"},
+        &r.multisample);
+  v.key({.name = "shadow_map",
+         .unit = "pixels",
+         .bounds = between(256, 8192),
+         .meaning = "along a side",
+         .holds = [](double n) { return std::has_single_bit(static_cast<unsigned>(n)); },
+         .rule = "a power of two"},
+        &r.shadow_map);
+  v.key({.name = "shadow_samples", .bounds = between(1, 64), .meaning = "taps of the soft shadow filter"},
+        &r.shadow_samples);
+}
+
+void visit_path(render::PathSettings& p, KeyVisitor& v) {
+  v.key({.name = "bounces", .bounds = between(0, 64), .meaning = "indirect bounces after the first hit"},
+        &p.bounces);
+  v.key({.name = "seed", .meaning = "of the sample sequence"}, &p.seed);
+  v.key({.name = "filter", .meaning = "pixel reconstruction", .choices = filter_choices}, &p.filter);
+  v.key({.name = "filter_radius",
+         .unit = "pixels",
+         .bounds = above_up_to(0, 4),
+         .meaning = "of the reconstruction filter"},
+        &p.filter_radius);
+}
+
+void visit_render(render::RenderSettings& r, KeyVisitor& v) {
+  v.key({.name = "backend", .meaning = "who draws", .choices = render::renderer_names}, &r.backend);
+  v.key({.name = "width", .unit = "pixels", .bounds = between(1, 16384), .meaning = "of the picture"},
+        &r.width);
+  v.key({.name = "height", .unit = "pixels", .bounds = between(1, 16384), .meaning = "of the picture"},
+        &r.height);
+  v.key({.name = "samples", .bounds = between(1, 65536), .meaning = "paths a pixel (path only)"}, &r.samples);
+  v.key({.name = "tone_curve", .meaning = "from linear light to the display", .choices = tone_curve_choices},
+        &r.tone_curve);
+  v.key(
+      {.name = "exposure", .unit = "stops", .meaning = "linear light times 2^exposure before the tone curve"},
+      &r.exposure);
+  v.key({.name = "png_compression", .bounds = between(0, 12), .meaning = "zlib level of the pictures"},
+        &r.png_compression);
+  v.key({.name = "channels",
+         .meaning = "written beside the picture, to RUN/aov/<channel>/",
+         .choices = render::channel_names},
+        &r.channels);
+  v.one({.name = "raster", .meaning = "of the raster back end"}, r.raster, visit_raster);
+  v.one({.name = "path", .meaning = "of the path back end"}, r.path, visit_path);
+}
+
+void visit_ground(render::Ground& g, KeyVisitor& v) {
+  v.key({.name = "enabled", .meaning = "whether there is a floor"}, &g.enabled);
+  v.key({.name = "height", .unit = "m", .meaning = "y of the floor"}, &g.height);
+  v.key({.name = "center", .unit = "m", .meaning = "of its disc; y has no effect"}, &g.center);
+  v.key({.name = "radius",
+         .unit = "m",
+         .bounds = above(0),
+         .meaning = "where it has faded into the background"},
+        &g.radius);
+  v.key({.name = "fade_start",
+         .unit = "m",
+         .bounds = at_least(0),
+         .meaning = "up to where it is opaque, < radius"},
+        &g.fade_start);
+  v.one({.name = "material", .meaning = "how it is drawn", .is_inline = true}, g.material, visit_look);
+}
+
+void visit_light(render::AreaLight& l, KeyVisitor& v) {
+  v.key({.name = "position", .unit = "m", .meaning = "middle of the rectangle"}, &l.position);
+  v.key({.name = "look_at", .unit = "m", .meaning = "where it shines; the other side is dark"}, &l.look_at);
+  v.key({.name = "size", .unit = "m", .bounds = above(0), .meaning = "width, height"}, &l.size);
+  v.key({.name = "color", .bounds = at_least(0), .meaning = "linear RGB"}, &l.color);
+  v.key({.name = "radiance", .unit = "W/(sr m^2)", .bounds = at_least(0), .meaning = "of white; times color"},
+        &l.radiance);
+  v.key({.name = "visible", .meaning = "whether the camera sees it"}, &l.visible);
+}
+
+void visit_sky(render::Sky& s, KeyVisitor& v) {
+  v.key({.name = "zenith", .bounds = at_least(0), .meaning = "linear RGB straight up"}, &s.zenith);
+  v.key({.name = "horizon", .bounds = at_least(0), .meaning = "linear RGB at the horizon and below"},
+        &s.horizon);
+  v.key({.name = "strength", .unit = "W/(sr m^2)", .bounds = at_least(0), .meaning = "radiance of white"},
+        &s.strength);
+}
+
+void visit_background(std::optional<render::Color>& color, KeyVisitor& v) {
+  v.key({.name = "color",
+         .bounds = at_least(0),
+         .meaning = "linear RGB of what the camera sees where nothing is; without it the sky"},
+        &color);
+}
+
+}  // namespace
+
+std::string Bounds::text() const {
+  const bool has_low = low != -std::numeric_limits<double>::infinity();
+  const bool has_high = high != std::numeric_limits<double>::infinity();
+  if (has_low && has_high) {
+    if (!open_low && !open_high) return fmt::format("in {} .. {}", low, high);
+    return fmt::format("in {}{}, {}{}", open_low ? '(' : '[', low, high, open_high ? ')' : ']');
+  }
+  if (has_low) return fmt::format("{} {}", open_low ? ">" : ">=", low);
+  if (has_high) return fmt::format("{} {}", open_high ? "<" : "<=", high);
+  return {};
+}
+
+void visit_scene(SceneDesc& s, KeyVisitor& v) {
+  v.key({.name = "name",
+         .part = Part::none,
+         .meaning = "of the scene and of what is written; a plain file name",
+         .default_note = "the file's name"},
+        &s.name);
+  v.one({.name = "time", .meaning = "frames and steps"}, s.time, visit_time);
+  v.one({.name = "solver", .meaning = "how a step is solved"}, s.solver, visit_solver);
+  v.list({.name = "body", .meaning = "what moves; at least one"}, s.body, visit_body);
+  v.one({.name = "camera", .meaning = "where the pictures are taken from"}, s.camera, visit_camera);
+  v.one({.name = "render", .meaning = "the pictures"}, s.render, visit_render);
+  v.one({.name = "ground", .meaning = "a floor that receives shadows and fades into the background"},
+        s.ground, visit_ground);
+  v.list({.name = "light", .meaning = "a rectangle that shines; one where the scene names none"}, s.light,
+         visit_light);
+  v.one({.name = "sky", .meaning = "light from all around"}, s.sky, visit_sky);
+  v.one({.name = "background", .meaning = "what the camera sees where nothing is"}, s.background,
+        visit_background);
+}
+
+}  // namespace lagomorph::apps

@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "apps/hash.h"
+#include "apps/scene/keys.h"
+#include "apps/scene/scene.h"
+#include "apps/scene/values.h"
+
+namespace lagomorph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A visitor that knows the path of the key it is shown.
+class PathVisitor : public KeyVisitor {
+public:
+  void table(const Table& about, const Elements& elements) override {
+    const std::string path = path_of(about.name);
+    const int size = elements.size();
+    for (int i = 0; i < size; ++i) {
+      const bool list = elements.kind == Elements::Kind::list;
+      const std::string outer = std::exchange(path_, list ? fmt::format("{}.{}", path, i) : path);
+      elements.visit(i, *this);
+      path_ = outer;
+    }
+  }
+
+protected:
+  std::string path_of(const char* name) const { return path_.empty() ? name : path_ + "." + name; }
+
+private:
+  std::string path_;
+};
+
+/// The files behind a mesh's name: TetGen's come in pairs.
+std::vector<fs::path> files_of(const SceneDesc& scene, const std::string& name) {
+  if (name.empty()) return {};
+  const fs::path file = fs::absolute(scene.directory / name).lexically_normal();
+  if (file.extension() != ".node" && file.extension() != ".ele") return {file};
+  return {fs::path(file).replace_extension(".node"), fs::path(file).replace_extension(".ele")};
+}
+
+class FileCollector : public PathVisitor {
+public:
+  explicit FileCollector(const SceneDesc& scene) : scene_(scene) {}
+  std::vector<InputFile> files;
+  void key(const Key& k, Field field) override {
+    if (!k.file) return;
+    for (const fs::path& file : files_of(scene_, *std::get<std::string*>(field))) {
+      const bool known =
+          std::any_of(files.begin(), files.end(), [&](const InputFile& f) { return f.path == file; });
+      if (!known) files.push_back({path_of(k.name), file});
+    }
+  }
+
+private:
+  const SceneDesc& scene_;
+};
+
+class PartCollector : public PathVisitor {
+public:
+  PartCollector(const SceneDesc& scene, Part part) : scene_(scene), part_(part) {}
+  std::vector<ResolvedKey> keys;
+  void key(const Key& k, Field field) override {
+    if (k.part != part_) return;
+    std::string value = toml_value(field).value_or("not given");
+    if (k.file) value = contents(*std::get<std::string*>(field));
+    keys.push_back({path_of(k.name), value});
+  }
+
+private:
+  /// A file by what is in it, so that a moved one is the same.
+  std::string contents(const std::string& name) const {
+    std::string hashes;
+    for (const fs::path& file : files_of(scene_, name)) hashes += " sha256:" + sha256_file(file);
+    return hashes.empty() ? toml_string("") : hashes.substr(1);
+  }
+
+  const SceneDesc& scene_;
+  Part part_;
+};
+
+std::vector<ResolvedKey> keys_of(const SceneDesc& scene, Part part) {
+  SceneDesc shown = scene;
+  PartCollector collector(scene, part);
+  visit_scene(shown, collector);
+  return collector.keys;
+}
+
+}  // namespace
+
+std::vector<ResolvedKey> simulation_keys(const SceneDesc& scene) { return keys_of(scene, Part::simulation); }
+
+std::vector<ResolvedKey> picture_keys(const SceneDesc& scene) { return keys_of(scene, Part::picture); }
+
+std::vector<InputFile> input_files(const SceneDesc& scene) {
+  SceneDesc shown = scene;
+  FileCollector collector(scene);
+  visit_scene(shown, collector);
+  return collector.files;
+}
+
+}  // namespace lagomorph::apps

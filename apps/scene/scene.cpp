@@ -1,0 +1,61 @@
+#include "apps/scene/scene.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "apps/error.h"
+#include "apps/scene/read.h"
+
+namespace lagomorph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// No scene is larger; a mesh or a film that is taken for one need not be read whole.
+constexpr std::streamsize most_bytes = std::streamsize{1} << 24;
+
+std::string read_text(const fs::path& file) {
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  std::string text;
+  if (in) {
+    text.resize(static_cast<std::size_t>(most_bytes));
+    in.read(text.data(), most_bytes);
+    text.resize(static_cast<std::size_t>(in.gcount()));
+  }
+  if (!in.is_open() || in.bad()) {
+    throw Error(ExitStatus::wrong_input,
+                fmt::format("{}: the scene cannot be read: {}", file.string(), std::strerror(errno)));
+  }
+  if (static_cast<std::streamsize>(text.size()) == most_bytes) {
+    throw Error(ExitStatus::wrong_input, fmt::format("{}: larger than any scene", file.string()));
+  }
+  return text;
+}
+
+SceneDesc parse(std::string_view text, const fs::path& file, std::span<const std::string> overrides,
+                Places& places) {
+  SceneDesc scene = read_scene(text, file.string(), overrides, places);
+  scene.directory = fs::absolute(file).parent_path().lexically_normal();
+  resolve_scene(scene, places, file.stem().string());
+  return scene;
+}
+
+}  // namespace
+
+SceneDesc parse_scene(std::string_view text, const fs::path& file, std::span<const std::string> overrides) {
+  Places places;
+  return parse(text, file, overrides, places);
+}
+
+SceneDesc load_scene(const fs::path& file, std::span<const std::string> overrides) {
+  Places places;
+  SceneDesc scene = parse(read_text(file), file, overrides, places);
+  check_scene_files(scene, places);
+  return scene;
+}
+
+}  // namespace lagomorph::apps

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string_view>
+
+namespace lagomorph::apps {
+
+/// Whether the bytes are UTF-8 (RFC 3629: shortest forms only, no surrogates, up to U+10FFFF).
+bool is_utf8(std::string_view bytes);
+
+}  // namespace lagomorph::apps
