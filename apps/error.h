@@ -21,4 +21,6 @@ struct Error : std::runtime_error {
   ExitStatus status;
 };
 
+[[noreturn]] inline void wrong_input(const std::string& what) { throw Error(ExitStatus::wrong_input, what); }
+
 }  // namespace lagomorph::apps

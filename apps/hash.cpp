@@ -54,14 +54,14 @@ std::string sha256(std::string_view bytes) {
 std::string sha256_file(const std::filesystem::path& file) {
   errno = 0;
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(ExitStatus::wrong_input, file.string() + ": cannot be read: " + std::strerror(errno));
+  if (!in) wrong_input(file.string() + ": cannot be read: " + std::strerror(errno));
   Sha256 hash;
   std::string buffer(std::size_t{1} << 18, '\0');
   while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0) {
     hash.add({buffer.data(), static_cast<std::size_t>(in.gcount())});
   }
   if (in.bad()) {  // a directory opens, and then does not read
-    throw Error(ExitStatus::wrong_input, file.string() + ": cannot be read: " + std::strerror(errno));
+    wrong_input(file.string() + ": cannot be read: " + std::strerror(errno));
   }
   return hash.hex();
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/cli/command_line.h"
@@ -17,8 +18,9 @@ namespace {
 
 using lagomorph::apps::ExitStatus;
 
-int fail(ExitStatus status, const std::string& what) {
-  std::fprintf(stderr, "lagomorph: error: %s\n", lagomorph::apps::one_line(what).c_str());
+int fail(ExitStatus status, std::string_view what) {
+  constexpr std::size_t longest = 4000;  // bytes; a file may hold a name of any length
+  std::fprintf(stderr, "lagomorph: error: %s\n", lagomorph::apps::one_line(what.substr(0, longest)).c_str());
   return static_cast<int>(status);
 }
 

@@ -41,7 +41,14 @@ std::string nearest(std::string_view written, std::span<const std::string> known
       best_distance = distance;
     }
   }
-  return best;
+  if (!best.empty()) return best;
+  constexpr std::size_t telling = 3;  // letters; fewer are a part of anything
+  for (const std::string& name : known) {
+    const std::string_view shorter = written.size() < name.size() ? written : name;
+    const std::string_view longer = written.size() < name.size() ? std::string_view(name) : written;
+    if (shorter.size() >= telling && longer.find(shorter) != std::string_view::npos) return name;
+  }
+  return {};
 }
 
 std::string joined(std::span<const std::string> names) {

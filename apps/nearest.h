@@ -10,7 +10,8 @@ namespace lagomorph::apps {
 /// case of letters (optimal string alignment distance).
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The known name nearest to what was written; empty when none is near (more than a third of it differs).
+/// The known name nearest to what was written: at most a third of it differs, or one is a part of the other.
+/// Empty when none is near.
 std::string nearest(std::string_view written, std::span<const std::string> known);
 
 /// "a, b, c".

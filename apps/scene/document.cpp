@@ -13,8 +13,6 @@
 namespace lagomorph::apps {
 namespace {
 
-[[noreturn]] void wrong(const std::string& what) { throw Error(ExitStatus::wrong_input, what); }
-
 /// A table of the one key `v`, whose nodes have `source` for their place.
 toml::table only_v(const std::string& value, const std::string& source) {
   return toml::parse("v = " + value, source);
@@ -33,7 +31,7 @@ toml::table parse_value(const std::string& value, const std::string& source) {
     // Takes what a string may hold, and no other bytes.
     *text.get_as<std::string>("v") = toml::parse("v = '''\n" + value + "'''").get_as<std::string>("v")->get();
   } catch (const toml::parse_error&) {
-    wrong(source + ": the value is neither TOML nor a line of UTF-8 text");
+    wrong_input(source + ": the value is neither TOML nor a line of UTF-8 text");
   }
   return text;
 }
@@ -48,7 +46,7 @@ std::vector<std::string> segments_of(const std::string& path, const std::string&
     }
   }
   for (const std::string& s : segments) {
-    if (s.empty()) wrong(fmt::format("{}: the key '{}' has an empty part", source, path));
+    if (s.empty()) wrong_input(fmt::format("{}: the key '{}' has an empty part", source, path));
   }
   return segments;
 }
@@ -101,19 +99,20 @@ public:
   toml::node* find(const std::string& segment) {
     if (toml::table* table = node_->as_table()) return table->get(segment);
     if (toml::array* array = node_->as_array()) return array->get(checked_index(*array, segment));
-    wrong(fmt::format("{}: '{}' is a value, it has no '{}'", source_, path_, segment));
+    wrong_input(fmt::format("{}: '{}' is a value, it has no '{}'", source_, path_, segment));
   }
 
 private:
   std::size_t checked_index(const toml::array& array, const std::string& segment) const {
     const std::optional<std::size_t> index = index_of(segment);
     if (!index) {
-      wrong(fmt::format("{}: '{}' is an array; what follows must be an index, as in {}.0, not '{}'", source_,
-                        path_, path_, segment));
+      wrong_input(fmt::format("{}: '{}' is an array; what follows must be an index, as in {}.0, not '{}'",
+                              source_, path_, path_, segment));
     }
     if (*index > array.size()) {
-      wrong(fmt::format("{}: index {} is out of range; '{}' has {} element{} here, and {} would add one",
-                        source_, *index, path_, array.size(), array.size() == 1 ? "" : "s", array.size()));
+      wrong_input(
+          fmt::format("{}: index {} is out of range; '{}' has {} element{} here, and {} would add one",
+                      source_, *index, path_, array.size(), array.size() == 1 ? "" : "s", array.size()));
     }
     return *index;
   }
@@ -130,7 +129,7 @@ Document::Document(std::string_view text, std::string origin, std::span<const st
   try {
     root_ = toml::parse(text, origin_);
   } catch (const toml::parse_error& error) {
-    wrong(place(error.source()) + std::string(error.description()));
+    wrong_input(place(error.source()) + std::string(error.description()));
   }
   for (const std::string& override_text : overrides) apply(override_text);
 }
@@ -138,7 +137,7 @@ Document::Document(std::string_view text, std::string origin, std::span<const st
 void Document::apply(const std::string& override_text) {
   const std::string source = "--set " + override_text;
   const std::size_t equals = override_text.find('=');
-  if (equals == std::string::npos || equals == 0) wrong(source + ": must be key.path=VALUE");
+  if (equals == std::string::npos || equals == 0) wrong_input(source + ": must be key.path=VALUE");
   const std::vector<std::string> segments = segments_of(override_text.substr(0, equals), source);
   Setter setter(root_, source);
   for (std::size_t i = 0; i + 1 < segments.size(); ++i) {

@@ -39,13 +39,9 @@ private:
   }
 
   static std::string valid(const Key& k) {
-    std::string all = k.bounds.text();
-    if (k.rule != nullptr) all += (all.empty() ? "" : ", ") + std::string(k.rule);
-    if (k.choices == nullptr) return all;
-    for (const std::string& choice : k.choices()) {
-      if (choice == "null") continue;  // the back end that draws nothing is for tests
-      all += (all.empty() ? "`" : ", `") + choice + "`";
-    }
+    if (k.choices == nullptr) return valid_numbers(k);
+    std::string all;
+    for (const std::string& choice : shown_choices(k)) all += (all.empty() ? "`" : ", `") + choice + "`";
     return all;
   }
 

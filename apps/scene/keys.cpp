@@ -361,6 +361,18 @@ std::string Bounds::text() const {
   return {};
 }
 
+std::string valid_numbers(const Key& k) {
+  const std::string bounds = k.bounds.text();
+  if (k.rule == nullptr) return bounds;
+  return bounds.empty() ? k.rule : fmt::format("{}, {}", bounds, k.rule);
+}
+
+std::vector<std::string> shown_choices(const Key& k) {
+  std::vector<std::string> choices = k.choices();
+  std::erase(choices, "null");
+  return choices;
+}
+
 void visit_scene(SceneDesc& s, KeyVisitor& v) {
   v.key({.name = "name",
          .part = Part::none,

@@ -56,6 +56,11 @@ struct Key {
   bool file = false;                                // a path, relative to the scene; empty: none
 };
 
+/// Bounds and rule in words; empty when every number is valid.
+std::string valid_numbers(const Key&);
+/// The choices that are told; `null`, the back end that draws nothing, is for tests.
+std::vector<std::string> shown_choices(const Key&);
+
 /// A table of keys: `[name]`, one of `[[name]]`, or `name = { ... }`.
 struct Table {
   const char* name = "";

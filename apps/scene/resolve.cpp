@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void wrong(const std::string& what) { throw Error(ExitStatus::wrong_input, what); }
-
 /// Names become file names and lines of text files.
 void check_name(const std::string& name, const std::string& key, const Places& places) {
   const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
@@ -28,7 +26,7 @@ void check_name(const std::string& name, const std::string& key, const Places& p
   if (!is_utf8(name)) fault = "it is not UTF-8";
   if (name.size() > 200) fault = "it is longer than 200 bytes";
   if (fault != nullptr) {
-    wrong(fmt::format("{}{} = '{}' must be a plain file name: {}", places.of(key), key, name, fault));
+    wrong_input(fmt::format("{}{} = '{}' must be a plain file name: {}", places.of(key), key, name, fault));
   }
 }
 
@@ -38,19 +36,19 @@ void resolve_material(sim::MaterialSettings& m, const std::string& path, const P
                         const char* b_name) {
     if (a.has_value() == b.has_value()) return;
     const char* given = a ? a_name : b_name;
-    wrong(
+    wrong_input(
         fmt::format("{}{}.{} needs {} too", places.of(path + "." + given), path, given, a ? b_name : a_name));
   };
   const bool young = m.young || m.poisson, lame = m.mu || m.lambda, lecture = m.C || m.D;
   if (young + lame + lecture > 1) {
     const char* other = lecture ? (m.C ? "C" : "D") : (m.mu ? "mu" : "lambda");
     const char* first = young ? (m.young ? "young" : "poisson") : (m.mu ? "mu" : "lambda");
-    wrong(fmt::format("{}{} has {} and {}: give young and poisson, or mu and lambda, or C and D",
-                      places.of(path + "." + other), path, first, other));
+    wrong_input(fmt::format("{}{} has {} and {}: give young and poisson, or mu and lambda, or C and D",
+                            places.of(path + "." + other), path, first, other));
   }
   if (lecture && m.model != "neo_hookean") {
     const char* given = m.C ? "C" : "D";
-    wrong(
+    wrong_input(
         fmt::format("{}{}.{} is only of the model neo_hookean, not of {}; give young and poisson, or mu and "
                     "lambda",
                     places.of(path + "." + given), path, given, m.model));
@@ -59,12 +57,12 @@ void resolve_material(sim::MaterialSettings& m, const std::string& path, const P
   both(m.C, "C", m.D, "D");
   // A positive bulk modulus, lambda + 2/3 mu; poisson > -1 says the same.
   if (lame && *m.lambda <= -2.0 / 3.0 * *m.mu) {
-    wrong(fmt::format("{}{}.lambda = {} is out of range; it must be > -2/3 mu = {}",
-                      places.of(path + ".lambda"), path, *m.lambda, -2.0 / 3.0 * *m.mu));
+    wrong_input(fmt::format("{}{}.lambda = {} is out of range; it must be > -2/3 mu = {}",
+                            places.of(path + ".lambda"), path, *m.lambda, -2.0 / 3.0 * *m.mu));
   }
   if (lecture && *m.D <= -2.0 / 3.0 * *m.C) {
-    wrong(fmt::format("{}{}.D = {} is out of range; it must be > -2/3 C = {}", places.of(path + ".D"), path,
-                      *m.D, -2.0 / 3.0 * *m.C));
+    wrong_input(fmt::format("{}{}.D = {} is out of range; it must be > -2/3 C = {}", places.of(path + ".D"),
+                            path, *m.D, -2.0 / 3.0 * *m.C));
   }
   if (!lame && !lecture) {
     if (!m.young) m.young = 1e5;
@@ -74,15 +72,15 @@ void resolve_material(sim::MaterialSettings& m, const std::string& path, const P
 
 void check_pin(const sim::PinSettings& p, const std::string& path, const Places& places) {
   if (p.vertices.empty() && !p.box && !p.sphere && !p.plane && !p.top && !p.bottom) {
-    wrong(fmt::format("{}{} selects nothing; give vertices, box, sphere, plane, top or bottom",
-                      places.of(path), path));
+    wrong_input(fmt::format("{}{} selects nothing; give vertices, box, sphere, plane, top or bottom",
+                            places.of(path), path));
   }
   if (p.box && (p.box->min.array() > p.box->max.array()).any()) {
-    wrong(fmt::format("{}{}.box: the first corner must be the lesser one in x, y and z",
-                      places.of(path + ".box"), path));
+    wrong_input(fmt::format("{}{}.box: the first corner must be the lesser one in x, y and z",
+                            places.of(path + ".box"), path));
   }
   if (p.plane && p.plane->normal.norm() == 0.0) {
-    wrong(fmt::format("{}{}.plane.normal must not be 0", places.of(path + ".plane.normal"), path));
+    wrong_input(fmt::format("{}{}.plane.normal must not be 0", places.of(path + ".plane.normal"), path));
   }
 }
 
@@ -90,32 +88,32 @@ void check_camera(const render::CameraSettings& c, const Places& places) {
   const render::Vec3 view = c.look_at - c.position;
   if (view.norm() == 0.0F) {
     const char* key = places.has("camera.look_at") ? "camera.look_at" : "camera.position";
-    wrong(fmt::format("{}camera.position and camera.look_at are the same point", places.of(key)));
+    wrong_input(fmt::format("{}camera.position and camera.look_at are the same point", places.of(key)));
   }
   // Below some ten units in the last place the picture's axes are noise.
   if (c.up.normalized().cross(view.normalized()).norm() < 1e-6F) {
     const char* fault = c.up.norm() == 0.0F ? "must not be 0" : "must not be along the view";
-    wrong(fmt::format("{}camera.up {}", places.of("camera.up"), fault));
+    wrong_input(fmt::format("{}camera.up {}", places.of("camera.up"), fault));
   }
 }
 
 void check_looks(const SceneDesc& scene, const Places& places) {
   if (scene.ground.fade_start >= scene.ground.radius) {
     const char* key = places.has("ground.fade_start") ? "ground.fade_start" : "ground.radius";
-    wrong(fmt::format("{}ground.fade_start = {} must be less than ground.radius = {}", places.of(key),
-                      scene.ground.fade_start, scene.ground.radius));
+    wrong_input(fmt::format("{}ground.fade_start = {} must be less than ground.radius = {}", places.of(key),
+                            scene.ground.fade_start, scene.ground.radius));
   }
   for (std::size_t i = 0; i < scene.light.size(); ++i) {
     if (scene.light[i].position != scene.light[i].look_at) continue;
     const std::string path = fmt::format("light.{}", i);
     const std::string key = path + (places.has(path + ".look_at") ? ".look_at" : ".position");
-    wrong(fmt::format("{}{}.position and {}.look_at are the same point", places.of(key), path, path));
+    wrong_input(fmt::format("{}{}.position and {}.look_at are the same point", places.of(key), path, path));
   }
   std::set<std::string> channels;
   for (std::size_t i = 0; i < scene.render.channels.size(); ++i) {
     const std::string& channel = scene.render.channels[i];
     if (!channels.insert(channel).second) {
-      wrong(fmt::format("{}render.channels has '{}' twice", places.of("render.channels"), channel));
+      wrong_input(fmt::format("{}render.channels has '{}' twice", places.of("render.channels"), channel));
     }
   }
 }
@@ -125,15 +123,15 @@ void check_file(const SceneDesc& scene, const std::string& name, const std::stri
   if (name.empty()) return;
   const std::string extension = fs::path(name).extension().string();
   if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
-    wrong(fmt::format("{}{} = '{}' has an unknown extension; known are {}", places.of(key), key, name,
-                      joined(extensions)));
+    wrong_input(fmt::format("{}{} = '{}' has an unknown extension; known are {}", places.of(key), key, name,
+                            joined(extensions)));
   }
   std::error_code none;
   if (!fs::exists(scene.directory / name, none)) {
-    wrong(fmt::format("{}{} = '{}': there is no such file", places.of(key), key, name));
+    wrong_input(fmt::format("{}{} = '{}': there is no such file", places.of(key), key, name));
   }
   if (!fs::is_regular_file(scene.directory / name, none)) {
-    wrong(fmt::format("{}{} = '{}' is not a file", places.of(key), key, name));
+    wrong_input(fmt::format("{}{} = '{}' is not a file", places.of(key), key, name));
   }
 }
 
@@ -143,7 +141,7 @@ void resolve_scene(SceneDesc& scene, const Places& places, const std::string& st
   if (!places.has("name")) scene.name = stem;
   check_name(scene.name, "name", places);
   if (scene.body.empty())
-    wrong(places.of("body") + "the scene has no body; give at least one [[body]] with a mesh");
+    wrong_input(places.of("body") + "the scene has no body; give at least one [[body]] with a mesh");
   std::set<std::string> body_names;
   for (std::size_t i = 0; i < scene.body.size(); ++i) {
     const std::string path = fmt::format("body.{}", i);
@@ -151,10 +149,10 @@ void resolve_scene(SceneDesc& scene, const Places& places, const std::string& st
     if (!places.has(path + ".name")) body.physics.name = fmt::format("body{}", i);
     check_name(body.physics.name, path + ".name", places);
     if (!body_names.insert(body.physics.name).second) {
-      wrong(fmt::format("{}{}.name = '{}' is another body's name", places.of(path + ".name"), path,
-                        body.physics.name));
+      wrong_input(fmt::format("{}{}.name = '{}' is another body's name", places.of(path + ".name"), path,
+                              body.physics.name));
     }
-    if (body.mesh.empty()) wrong(fmt::format("{}{}.mesh is empty", places.of(path + ".mesh"), path));
+    if (body.mesh.empty()) wrong_input(fmt::format("{}{}.mesh is empty", places.of(path + ".mesh"), path));
     resolve_material(body.physics.material, path + ".material", places);
     for (std::size_t j = 0; j < body.physics.pin.size(); ++j) {
       check_pin(body.physics.pin[j], fmt::format("{}.pin.{}", path, j), places);

@@ -27,11 +27,10 @@ std::string read_text(const fs::path& file) {
     text.resize(static_cast<std::size_t>(in.gcount()));
   }
   if (!in.is_open() || in.bad()) {
-    throw Error(ExitStatus::wrong_input,
-                fmt::format("{}: the scene cannot be read: {}", file.string(), std::strerror(errno)));
+    wrong_input(fmt::format("{}: the scene cannot be read: {}", file.string(), std::strerror(errno)));
   }
   if (static_cast<std::streamsize>(text.size()) == most_bytes) {
-    throw Error(ExitStatus::wrong_input, fmt::format("{}: larger than any scene", file.string()));
+    wrong_input(fmt::format("{}: larger than any scene", file.string()));
   }
   return text;
 }

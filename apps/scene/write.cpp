@@ -19,8 +19,8 @@ public:
       return;
     }
     const std::string unit = *k.unit == '\0' ? "" : fmt::format("  # {}", k.unit);
-    keys_ += value ? fmt::format("{} = {}{}\n", k.name, *value, unit)
-                   : fmt::format("# {} is not given\n", k.name);
+    keys_ +=
+        value ? fmt::format("{} = {}{}\n", k.name, *value, unit) : fmt::format("# {} is not given\n", k.name);
   }
 
   void table(const Table& about, const Elements& elements) override {
