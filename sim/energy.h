@@ -14,6 +14,9 @@ public:
   virtual std::string_view name() const = 0;
   /// V(q) [J]; +inf where the energy is not defined (a lecture Neo-Hookean element with J <= 0).
   virtual double value(const VecX& q) const = 0;
+  /// Size of the numbers that value(q) is summed from: rounding leaves it uncertain by some 1e-16 of this.
+  /// [J]
+  virtual double value_scale(const VecX& q) const = 0;
   /// g += scale · ∂V/∂q [N].
   virtual void add_gradient(const VecX& q, double scale, VecX& g) const = 0;
   /// H += scale · ∂²V/∂q² [N/m], exact or projected element by element to positive semi-definite.

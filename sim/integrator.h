@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/linear_solver.h"  // linear_algebra_info(), for run.json
 #include "sim/model.h"
 #include "sim/settings.h"
 
@@ -58,13 +59,5 @@ struct FrameReport {
 /// step that does not converge is halved up to `max_halvings` times. On a bad status the state is left at its
 /// frame.
 FrameReport advance_frame(const Model&, Integrator&, const TimeSettings&, const SolverSettings&, State&);
-
-/// What the linear algebra underneath is, for run.json: CHOLMOD's and OpenBLAS's versions, kernel (core
-/// type), threads.
-struct LinearAlgebraInfo {
-  std::string cholmod, blas, blas_kernel;
-  int blas_threads = 1;
-};
-LinearAlgebraInfo linear_algebra_info();
 
 }  // namespace lagomorph::sim

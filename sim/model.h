@@ -48,10 +48,16 @@ public:
   Model(std::vector<BodyInput> bodies, const Vec3& gravity);
 
   const TetMesh& mesh() const { return mesh_; }
-  const SparseMatrix& mass() const { return M_; }     // M, 3n×3n [kg]
+  SparseMatrix mass() const;                          // M, 3n×3n [kg], made at each call
+  VecX mass_times(const VecX& v) const;               // M v
   const VecX& gravity_force() const { return f_g_; }  // M (g, g, ...), 3n [N]
   const Pins& pins() const { return pins_; }
-  const std::vector<std::unique_ptr<Energy>>& energies() const { return energies_; }  // elasticity, gravity
+  /// Elasticity, a term for each material model in use, then gravity.
+  const std::vector<std::unique_ptr<Energy>>& energies() const { return energies_; }
+  /// Blocks of M and of ∂²V/∂q².
+  const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
+  /// H += scale · M.
+  void add_mass(double scale, BlockHessian& H) const;
   State initial_state() const;  // q = X, velocities of the scene
   Energies energies_of(const State&) const;
   Vec3 momentum(const State&) const;  // Σ (M q̇) by axis [kg m/s]
@@ -59,10 +65,13 @@ public:
 
 private:
   TetMesh mesh_;
-  SparseMatrix M_;
+  std::shared_ptr<const BlockPattern> pattern_;
+  VecX mass_blocks_;          // each block of M is such a multiple of I
+  SparseMatrix vertex_mass_;  // the same as a matrix, n×n: M = vertex_mass ⊗ I
   VecX f_g_;
   Pins pins_;
   std::vector<std::unique_ptr<Energy>> energies_;
+  const Energy* gravity_ = nullptr;
   VecX qdot0_;
 };
 

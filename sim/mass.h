@@ -1,0 +1,26 @@
+#pragma once
+
+#include "sim/block_hessian.h"
+#include "sim/kinematics.h"
+#include "sim/tet_mesh.h"
+
+namespace lagomorph::sim {
+
+/// M_j, 12×12 [kg]: the block of corners (r, s) is ρ vol/20 (1 + δ_rs) I. (lecture, "Mass matrix")
+Mat12 element_mass(double density, double volume);
+/// The same mass, a quarter at each corner.
+Mat12 element_mass_lumped(double density, double volume);
+
+struct BodyMass {
+  double density = 1000.0;  // [kg/m^3]
+  bool lumped = false;
+};
+
+/// M = Σ_j E_jᵀ M_j E_j. Each of its 3×3 blocks is a multiple of I: the multiples, in the pattern's order.
+/// [kg]
+VecX assemble_mass(const TetMesh&, const std::vector<BodyMass>& bodies, const BlockPattern&);
+
+/// Both triangles of the n×n matrix m with M = m ⊗ I, from assemble_mass's multiples.
+SparseMatrix vertex_mass_matrix(const VecX& mass_blocks, const BlockPattern&);
+
+}  // namespace lagomorph::sim

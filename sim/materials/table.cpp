@@ -1,0 +1,87 @@
+#include "sim/materials/table.h"
+
+#include "sim/elasticity.h"
+#include "sim/error.h"
+#include "sim/materials/neo_hookean.h"
+#include "sim/materials/stable_neo_hookean.h"
+#include "sim/materials/stable_neo_hookean_log.h"
+
+namespace lagomorph::sim {
+
+namespace {
+
+struct Row {
+  std::string name;
+  void (*check)(const MaterialSettings&, const std::string& where);
+  std::unique_ptr<Energy> (*make)(const TetMesh&, const std::vector<ElasticBody>&,
+                                  const std::shared_ptr<const BlockPattern>&);
+};
+
+template <EnergyDensity Material>
+void check(const MaterialSettings& settings, const std::string& where) {
+  Material::from_settings(settings, where);
+}
+
+template <EnergyDensity Material>
+std::unique_ptr<Energy> make(const TetMesh& mesh, const std::vector<ElasticBody>& bodies,
+                             const std::shared_ptr<const BlockPattern>& pattern) {
+  std::vector<int> elements;
+  std::vector<Material> materials;
+  for (const ElasticBody& body : bodies) {
+    const Material material = Material::from_settings(body.material, body.where);
+    for (int j = body.tets.begin; j < body.tets.end; ++j) {
+      elements.push_back(j);
+      materials.push_back(material);
+    }
+  }
+  return std::make_unique<Elasticity<Material>>(mesh, elements, std::move(materials), pattern);
+}
+
+template <EnergyDensity Material>
+Row row() {
+  return {Material::kName, check<Material>, make<Material>};
+}
+
+/// The explicit table: a new material is one row.
+const std::vector<Row>& table() {
+  static const std::vector<Row> rows = {row<NeoHookean>(), row<StableNeoHookean>(),
+                                        row<StableNeoHookeanLog>()};
+  return rows;
+}
+
+const Row& find(const std::string& model, const std::string& where) {
+  std::string names;
+  for (const Row& r : table()) {
+    if (r.name == model) return r;
+    names += (names.empty() ? "" : ", ") + r.name;
+  }
+  throw InputError(where + ": unknown material model '" + model + "'; valid ones are " + names);
+}
+
+}  // namespace
+
+std::vector<std::string> material_names() {
+  std::vector<std::string> names;
+  for (const Row& r : table()) names.push_back(r.name);
+  return names;
+}
+
+void check_material(const MaterialSettings& settings, const std::string& where) {
+  find(settings.model, where).check(settings, where);
+}
+
+std::vector<std::unique_ptr<Energy>> make_elasticity(const TetMesh& mesh,
+                                                     const std::vector<ElasticBody>& bodies,
+                                                     const std::shared_ptr<const BlockPattern>& pattern) {
+  for (const ElasticBody& body : bodies) check_material(body.material, body.where);
+  std::vector<std::unique_ptr<Energy>> terms;
+  for (const Row& r : table()) {
+    std::vector<ElasticBody> of_this_model;
+    for (const ElasticBody& body : bodies)
+      if (body.material.model == r.name) of_this_model.push_back(body);
+    if (!of_this_model.empty()) terms.push_back(r.make(mesh, of_this_model, pattern));
+  }
+  return terms;
+}
+
+}  // namespace lagomorph::sim

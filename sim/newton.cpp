@@ -1,0 +1,169 @@
+#include "sim/newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/error.h"
+#include "sim/text.h"
+
+namespace lagomorph::sim {
+
+void check(const SolverSettings& s) {
+  if (!(s.tolerance > 0.0 && s.tolerance < 1.0))
+    throw InputError("solver.tolerance = " + short_number(s.tolerance) + " must be in (0, 1)");
+  if (s.max_iterations < 1)
+    throw InputError("solver.max_iterations = " + std::to_string(s.max_iterations) + " must be >= 1");
+  if (s.max_halvings < 0 || s.max_halvings > 20)
+    throw InputError("solver.max_halvings = " + std::to_string(s.max_halvings) + " must be in 0 .. 20");
+  if (s.blas_threads < 1)
+    throw InputError("solver.blas_threads = " + std::to_string(s.blas_threads) + " must be >= 1");
+  if (s.hessian != "auto" && s.hessian != "projected")
+    throw InputError("unknown solver.hessian '" + s.hessian + "'; valid ones are auto, projected");
+}
+
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr double kArmijo = 1e-4;        // part of the predicted decrease that a step must bring
+constexpr int kMaxBacktracks = 40;      // halvings of a step while the energy tells steps apart
+constexpr int kMaxBlindBacktracks = 8;  // and where only the residual does
+
+/// Where V is evaluated.
+VecX position_of_V(const IncrementalPotential& phi, const VecX& q) {
+  if (phi.a == 1.0 && phi.b.size() == 0) return q;
+  VecX x = phi.a * q;
+  if (phi.b.size() != 0) x += phi.b;
+  return x;
+}
+
+}  // namespace
+
+/// Φ and its gradient at a q.
+struct Newton::Point {
+  VecX q, g;
+  double value = 0.0;        // Φ [J]
+  double value_scale = 0.0;  // size of the numbers that it is summed from [J]
+  double norm = 0.0;         // |g_free| [N]
+  double reference = 0.0;    // what norm is measured by [N]
+
+  bool is_finite() const { return std::isfinite(norm) && std::isfinite(value); }
+  double residual() const { return reference > 0.0 ? norm / reference : 0.0; }
+};
+
+Newton::Newton(const Model& model, const SolverSettings& settings)
+    : settings_((check(settings), settings)), linear_solver_(settings.blas_threads), H_(model.pattern()) {
+  linear_solver_.analyze(model.pattern(), model.pins());
+}
+
+Newton::Point Newton::evaluate(const Model& model, const IncrementalPotential& phi, VecX q) const {
+  Point p;
+  p.q = std::move(q);
+  const VecX x = position_of_V(phi, p.q);
+  VecX forces = VecX::Zero(x.size());
+  for (const auto& term : model.energies()) {
+    p.value += term->value(x) / phi.a;
+    p.value_scale += term->value_scale(x) / phi.a;
+    term->add_gradient(x, 1.0, forces);
+  }
+  if (phi.f.size() != 0) {
+    forces -= phi.f;
+    p.value -= phi.f.dot(p.q);
+    p.value_scale += phi.f.cwiseAbs().dot(p.q.cwiseAbs());
+  }
+  VecX inertia = VecX::Zero(x.size());
+  if (phi.m != 0.0) {
+    const VecX dq = p.q - phi.q_predicted;
+    inertia = phi.m * model.mass_times(dq);
+    p.value += 0.5 * dq.dot(inertia);
+  }
+  p.g = inertia + forces;
+  model.pins().clear_pinned(p.g);
+  p.norm = p.g.norm();
+  p.reference = model.pins().free_norm(model.gravity_force());
+  // Without gravity: the larger of the parts that must cancel.
+  if (p.reference == 0.0)
+    p.reference = std::max(model.pins().free_norm(inertia), model.pins().free_norm(forces));
+  return p;
+}
+
+/// The exact Hessian while its Cholesky factorization succeeds, so that Newton stays quadratic; else the
+/// projected one.
+FactorStatus Newton::factorize(const Model& model, const IncrementalPotential& phi, const VecX& q) {
+  const VecX x = position_of_V(phi, q);
+  const auto try_kind = [&](HessianKind kind) {
+    H_.set_zero();
+    for (const auto& term : model.energies()) term->add_hessian(x, phi.a, kind, H_);
+    if (phi.m != 0.0) model.add_mass(phi.m, H_);
+    return linear_solver_.factorize(H_);
+  };
+  if (settings_.hessian == "auto") {
+    const FactorStatus status = try_kind(HessianKind::exact);
+    if (status != FactorStatus::not_positive_definite) return status;
+  }
+  return try_kind(HessianKind::projected);
+}
+
+/// Goes along the direction to a point that is better, and returns whether there was one.
+bool Newton::search_line(const Model& model, const IncrementalPotential& phi, const VecX& direction,
+                         Point& point) const {
+  const double slope = point.g.dot(direction);
+  if (!(slope < 0.0)) return false;
+  // A decrease that drowns in the rounding of the energy is told by the residual instead.
+  const bool blind = -slope < 10.0 * kEpsilon * point.value_scale;
+  double step = 1.0;
+  for (const auto& term : model.energies()) {
+    // V moves by a · direction when q moves by it.
+    step = std::min(step, term->max_step(position_of_V(phi, point.q), phi.a * direction));
+  }
+  const int backtracks = blind ? kMaxBlindBacktracks : kMaxBacktracks;
+  for (int k = 0; k <= backtracks; ++k, step *= 0.5) {
+    Point next = evaluate(model, phi, point.q + step * direction);
+    if (!next.is_finite()) continue;
+    const bool better = blind ? next.norm < (1.0 - kArmijo * step) * point.norm
+                              : next.value <= point.value + kArmijo * step * slope;
+    if (!better) continue;
+    point = std::move(next);
+    return true;
+  }
+  return false;
+}
+
+/// What the rounding of q alone leaves of the residual. [N]
+double Newton::rounding_floor(const Model& model, const VecX& q) const {
+  return model.pins().free_norm(H_.rounding_of_times(q));
+}
+
+NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& phi, VecX& q) {
+  NewtonReport report;
+  Point point = evaluate(model, phi, std::move(q));
+  const auto end = [&](StepStatus status) {
+    report.status = status;
+    report.residual = point.residual();
+    q = std::move(point.q);
+    return report;
+  };
+  const auto end_stagnated = [&] {
+    const bool at_floor = point.norm <= kNearRoundingFloor * rounding_floor(model, point.q);
+    return end(at_floor ? StepStatus::rounding_floor : StepStatus::not_converged);
+  };
+  VecX direction;
+  for (;;) {
+    if (!point.is_finite()) return end(StepStatus::not_finite);
+    if (point.norm <= settings_.tolerance * point.reference) return end(StepStatus::converged);
+    if (report.iterations == settings_.max_iterations) return end_stagnated();
+
+    if (factorize(model, phi, point.q) != FactorStatus::ok) return end(StepStatus::not_positive);
+    linear_solver_.solve(-point.g, direction);
+    ++report.iterations;
+    if (!direction.allFinite()) return end(StepStatus::not_finite);
+
+    const double norm_before = point.norm;
+    if (!search_line(model, phi, direction, point)) return end_stagnated();
+    const bool crawls = point.norm > 0.5 * norm_before && point.norm > settings_.tolerance * point.reference;
+    if (crawls && point.norm <= kNearRoundingFloor * rounding_floor(model, point.q))
+      return end(StepStatus::rounding_floor);
+  }
+}
+
+}  // namespace lagomorph::sim

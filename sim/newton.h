@@ -1,0 +1,54 @@
+#pragma once
+
+#include "sim/block_hessian.h"
+#include "sim/integrator.h"
+#include "sim/linear_solver.h"
+#include "sim/model.h"
+#include "sim/settings.h"
+
+namespace lagomorph::sim {
+
+/// Φ(q) = m/2 (q - q̃)ᵀM(q - q̃) + V(a q + b)/a - fᵀq, whose minimum over the free vertices is the end of an
+/// implicit step: ∂Φ/∂q = 0 is m M (q - q̃) = -∂V/∂q (a q + b) + f, a balance of forces. With m = 0, a = 1 it
+/// is V itself and its minimum an equilibrium.
+struct IncrementalPotential {
+  double m = 0.0;    // 1/h² for backward Euler [1/s²]
+  VecX q_predicted;  // q̃, 3n [m]
+  double a = 1.0;  // where V is evaluated: the end of the step for a = 1, its middle for a = 1/2 and b = q/2
+  VecX b;          // 3n [m]; empty: zero
+  VecX f;          // constant force, 3n [N]; empty: zero
+};
+
+/// Within this many rounding floors, stagnation is convergence.
+inline constexpr double kNearRoundingFloor = 10.0;
+
+/// Throws InputError for a value out of range.
+void check(const SolverSettings&);
+
+struct NewtonReport {
+  StepStatus status = StepStatus::converged;
+  int iterations = 0;     // linear systems solved
+  double residual = 0.0;  // |g_free| over the reference
+};
+
+/// Newton's method with a line search. Keeps the symbolic factorization and buffers of one model's topology.
+class Newton {
+public:
+  Newton(const Model&, const SolverSettings&);
+  /// Minimizes Φ over the free vertices from q on; the pinned ones stay where they are in q. On a bad status
+  /// q is where it gave up.
+  NewtonReport minimize(const Model&, const IncrementalPotential&, VecX& q);
+
+private:
+  struct Point;
+  Point evaluate(const Model&, const IncrementalPotential&, VecX q) const;
+  FactorStatus factorize(const Model&, const IncrementalPotential&, const VecX& q);
+  bool search_line(const Model&, const IncrementalPotential&, const VecX& direction, Point& point) const;
+  double rounding_floor(const Model&, const VecX& q) const;
+
+  SolverSettings settings_;
+  LinearSolver linear_solver_;
+  BlockHessian H_;
+};
+
+}  // namespace lagomorph::sim
