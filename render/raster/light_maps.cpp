@@ -1,0 +1,197 @@
+#include "render/raster/light_maps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/raster/light_view.h"
+#include "render/raster/shaders/shaders.h"
+#include "render/raster/sky_model.h"
+
+namespace lagomorph::render::raster {
+namespace {
+
+constexpr int sky_map_size = 256;
+constexpr int ground_map_size = 256;
+constexpr int sky_table_size = 64;
+constexpr int coat_table_size = 32;
+
+void sampling(GLenum target, GLenum minify, GLenum magnify) {
+  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(minify));
+  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(magnify));
+  glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+/// Layers of depth; beyond the border there is nothing.
+void allocate_depth(const Texture& texture, int size, int layers) {
+  glBindTexture(GL_TEXTURE_2D_ARRAY, texture.id());
+  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT32F, size, size, layers);
+  sampling(GL_TEXTURE_2D_ARRAY, GL_NEAREST, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  const std::array<float, 4> nothing = {1.0F, 1.0F, 1.0F, 1.0F};
+  glTexParameterfv(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BORDER_COLOR, nothing.data());
+}
+
+void allocate_table(const Texture& texture, int width, int height, const void* pairs) {
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RG32F, width, height);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RG, GL_FLOAT, pairs);
+  sampling(GL_TEXTURE_2D, GL_LINEAR, GL_LINEAR);
+}
+
+/// The sphere around all positions, on a grid of a sixteenth of its size or so, see fit_light_view().
+struct Sphere {
+  Vec3 center = Vec3::Zero();
+  float radius = 1.0F;
+};
+Sphere bounding_sphere(std::span<const std::vector<Vec3>> positions) {
+  Eigen::AlignedBox3f box;
+  for (const std::vector<Vec3>& mesh : positions) {
+    for (const Vec3& p : mesh) box.extend(p);
+  }
+  if (box.isEmpty()) return {};
+  const float step = std::exp2(std::ceil(std::log2(std::max(box.diagonal().norm(), 1e-4F))) - 5.0F);
+  Sphere sphere;
+  sphere.center = step * (box.center() / step).array().round().matrix();
+  float radius = 0.0F;
+  for (const std::vector<Vec3>& mesh : positions) {
+    for (const Vec3& p : mesh) radius = std::max(radius, (p - sphere.center).squaredNorm());
+  }
+  sphere.radius = step * std::ceil(std::sqrt(radius) / step + 0.1F);
+  return sphere;
+}
+
+}  // namespace
+
+LightMaps::LightMaps(const RasterSettings& settings)
+    : settings_(settings),
+      depth_program_("depth map", {shaders::shadow_vertex}, {shaders::shadow_fragment}),
+      ground_program_(
+          "ground map", {shaders::full_screen_vertex},
+          {shaders::frame, shaders::brdf, shaders::shadow, shaders::sky, shaders::ground_map_fragment}) {
+  allocate_table(sky_table_, sky_table_size, 1, sky_irradiance_table(sky_table_size).data());
+  allocate_table(coat_table_, coat_table_size, coat_table_size, coat_albedo_table(coat_table_size).data());
+  allocate_depth(sky_maps_, sky_map_size, most_sky_directions);
+  const int levels = static_cast<int>(std::log2(ground_map_size)) + 1;
+  for (const Texture* texture : {&ground_ambient_, &ground_bounce_}) {
+    glBindTexture(GL_TEXTURE_2D, texture->id());
+    glTexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA16F, ground_map_size, ground_map_size);
+    sampling(GL_TEXTURE_2D, texture == &ground_bounce_ ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR, GL_LINEAR);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, depth_target_.id());
+  glDrawBuffer(GL_NONE);
+  glBindFramebuffer(GL_FRAMEBUFFER, ground_target_.id());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, ground_ambient_.id(), 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, ground_bounce_.id(), 0);
+  const std::array<GLenum, 2> buffers = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  glDrawBuffers(2, buffers.data());
+  check_framebuffer("ground map");
+}
+
+void LightMaps::set_scene(const RenderScene& scene, FrameBlock& block) {
+  const int layers = std::max<int>(1, static_cast<int>(scene.lights.size()));
+  if (layers != shadow_layers_) {
+    shadow_maps_ = Texture();
+    allocate_depth(shadow_maps_, settings_.shadow_map, layers);
+    shadow_layers_ = layers;
+    check_gl("shadow maps");
+  }
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const AreaLight& light = scene.lights[i];
+    const LightFrame frame = light_frame(light);
+    LightBlock& b = block.lights[i];
+    b.position = vec4(light.position, 1.0F);
+    b.right = vec4(frame.right, 0.5F * light.size.x());
+    b.up = vec4(frame.up, 0.5F * light.size.y());
+    b.normal = vec4(frame.normal, 0.0F);
+    b.radiance = vec4(Color(light.color * light.radiance), 0.0F);
+  }
+  block.sky = sky_directions(scene.sky);
+  block.zenith = vec4(Color(scene.sky.strength * scene.sky.zenith), 0.0F);
+  block.horizon = vec4(Color(scene.sky.strength * scene.sky.horizon), 0.0F);
+  block.background = scene.background ? vec4(*scene.background, 1.0F) : Vec4::Zero();
+  const Ground& g = scene.ground;
+  ground_ = g.enabled;
+  block.ground = Vec4(g.height, g.radius, g.fade_start, g.enabled ? 1.0F : 0.0F);
+  block.ground_at = vec4(Vec3(g.center.x(), g.height, g.center.z()), 0.0F);
+  block.ground_color = vec4(Color((1.0F - g.material.metallic) * g.material.base_color), 0.0F);
+  block.counts = Vec4(static_cast<float>(scene.lights.size()), static_cast<float>(settings_.shadow_samples),
+                      0.0F, static_cast<float>(ground_map_size));
+}
+
+void LightMaps::fit(const RenderScene& scene, std::span<const std::vector<Vec3>> positions,
+                    FrameBlock& block) {
+  light_views_.clear();
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const LightView view = fit_light_view(scene.lights[i], positions, settings_.shadow_map);
+    block.lights[i].map = view.map;
+    block.lights[i].depth = view.depth;
+    light_views_.push_back(view.clip_from_world);
+  }
+  const Sphere sphere = bounding_sphere(positions);
+  sky_views_.clear();
+  for (const SkyDirectionBlock& s : block.sky) {
+    Mat4 clip = Mat4::Identity();
+    clip.block<1, 3>(0, 0) = s.right.head<3>().transpose() / sphere.radius;
+    clip.block<1, 3>(1, 0) = s.up.head<3>().transpose() / sphere.radius;
+    clip.block<1, 3>(2, 0) = -s.direction.head<3>().transpose() / sphere.radius;
+    clip.block<3, 1>(0, 3) = -(clip.block<3, 3>(0, 0) * sphere.center);
+    sky_views_.push_back(clip);
+  }
+  const bool empty = std::all_of(positions.begin(), positions.end(), [](const auto& p) { return p.empty(); });
+  block.counts.z() = empty ? 0.0F : static_cast<float>(most_sky_directions);
+  block.sky_map = vec4(sphere.center, 1.0F / sphere.radius);
+  const float half = 1.5F * sphere.radius + std::max(sphere.center.y() - scene.ground.height, 0.0F);
+  const float scale = 0.5F / half;
+  block.ground_map = Vec4(scale, 2.0F * half / static_cast<float>(ground_map_size),
+                          0.5F - scale * sphere.center.x(), 0.5F - scale * sphere.center.z());
+}
+
+void LightMaps::draw_depth(const Texture& maps, int layer, int size, const Mat4& clip_from_world,
+                           std::span<const MeshBuffers> meshes) {
+  bind(depth_target_, size, size);
+  glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, maps.id(), 0, layer);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glUniformMatrix4fv(depth_program_.location("clip_from_world"), 1, GL_FALSE, clip_from_world.data());
+  for (const MeshBuffers& mesh : meshes) {
+    // The first surface on the light's way is a front face; where one is inverted, the next one still stops
+    // the light.
+    mesh.closed() ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
+    mesh.draw();
+  }
+}
+
+void LightMaps::draw(std::span<const MeshBuffers> meshes) {
+  glEnable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
+  depth_program_.use();
+  for (std::size_t i = 0; i < light_views_.size(); ++i)
+    draw_depth(shadow_maps_, static_cast<int>(i), settings_.shadow_map, light_views_[i], meshes);
+  for (std::size_t i = 0; i < sky_views_.size(); ++i)
+    draw_depth(sky_maps_, static_cast<int>(i), sky_map_size, sky_views_[i], meshes);
+  if (!ground_) return;
+  bind(ground_target_, ground_map_size, ground_map_size);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  ground_program_.use();
+  glBindVertexArray(no_attributes_.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glActiveTexture(GL_TEXTURE4);
+  glBindTexture(GL_TEXTURE_2D, ground_bounce_.id());
+  glGenerateMipmap(GL_TEXTURE_2D);
+}
+
+void LightMaps::bind_textures() const {
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, shadow_maps_.id());
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, sky_maps_.id());
+  const Texture* const maps[] = {&sky_table_, &ground_ambient_, &ground_bounce_, &coat_table_};
+  for (GLenum unit = 0; unit < 4; ++unit) {
+    glActiveTexture(GL_TEXTURE2 + unit);
+    glBindTexture(GL_TEXTURE_2D, maps[unit]->id());
+  }
+}
+
+}  // namespace lagomorph::render::raster

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "render/raster/frame_block.h"
+#include "render/raster/gl_objects.h"
+#include "render/raster/mesh_buffers.h"
+#include "render/render_scene.h"
+#include "render/settings.h"
+
+namespace lagomorph::render::raster {
+
+/// What lies between light and surface: a depth map a light, one a direction of the sky, and a map of the
+/// light on the ground under the meshes. All of it depends on the meshes' positions, not on the camera.
+class LightMaps {
+public:
+  explicit LightMaps(const RasterSettings&);
+
+  /// Lights, sky and ground of the scene into the frame's block.
+  void set_scene(const RenderScene&, FrameBlock&);
+  /// Fits the maps to new positions and says so in the frame's block.
+  void fit(const RenderScene&, std::span<const std::vector<Vec3>> positions, FrameBlock&);
+  /// Draws the maps of what was fitted; the block is bound.
+  void draw(std::span<const MeshBuffers> meshes);
+  /// Binds all maps and tables where the shaders expect them.
+  void bind_textures() const;
+
+private:
+  void draw_depth(const Texture& maps, int layer, int size, const Mat4& clip_from_world,
+                  std::span<const MeshBuffers> meshes);
+
+  RasterSettings settings_;
+  Program depth_program_, ground_program_;
+  Texture shadow_maps_, sky_maps_, sky_table_, coat_table_, ground_ambient_, ground_bounce_;
+  Framebuffer depth_target_, ground_target_;
+  VertexArray no_attributes_;
+  std::vector<Mat4> light_views_, sky_views_;
+  int shadow_layers_ = 0;
+  bool ground_ = false;
+};
+
+}  // namespace lagomorph::render::raster

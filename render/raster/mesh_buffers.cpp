@@ -1,0 +1,74 @@
+#include "render/raster/mesh_buffers.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace lagomorph::render::raster {
+namespace {
+
+void attribute(GLuint index, const Buffer& buffer, std::size_t vertex_count) {
+  glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertex_count * sizeof(Vec3)), nullptr,
+               GL_DYNAMIC_DRAW);
+  glVertexAttribPointer(index, 3, GL_FLOAT, GL_FALSE, sizeof(Vec3), nullptr);
+  glEnableVertexAttribArray(index);
+}
+
+void fill(const Buffer& buffer, std::span<const Vec3> values) {
+  glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
+  glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(values.size_bytes()), values.data());
+}
+
+}  // namespace
+
+bool is_closed(std::span<const Triangle> triangles, std::span<const Vec3> positions) {
+  const auto key = [](std::uint32_t a, std::uint32_t b) {
+    return (static_cast<std::uint64_t>(a) << 32U) | b;
+  };
+  std::vector<std::uint64_t> edges, opposite;
+  edges.reserve(3 * triangles.size());
+  opposite.reserve(3 * triangles.size());
+  double volume = 0.0;
+  for (const Triangle& t : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      edges.push_back(key(t[i], t[(i + 1) % 3]));
+      opposite.push_back(key(t[(i + 1) % 3], t[i]));
+    }
+    const Vec3 a = positions[t[0]] - positions[triangles[0][0]];
+    const Vec3 b = positions[t[1]] - positions[triangles[0][0]];
+    const Vec3 c = positions[t[2]] - positions[triangles[0][0]];
+    volume += static_cast<double>(a.dot(b.cross(c)));
+  }
+  std::sort(edges.begin(), edges.end());
+  std::sort(opposite.begin(), opposite.end());
+  return volume > 0.0 && edges == opposite && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+}
+
+MeshBuffers::MeshBuffers(const Mesh& mesh)
+    : triangles_(mesh.triangles),
+      topology_(mesh.triangles, mesh.positions.size()),
+      material_(mesh.material),
+      smooth_(mesh.smooth),
+      closed_(is_closed(mesh.triangles, mesh.positions)) {
+  glBindVertexArray(vertex_array_.id());
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles_.size() * sizeof(Triangle)),
+               triangles_.data(), GL_STATIC_DRAW);
+  attribute(0, position_buffer_, mesh.positions.size());
+  if (smooth_) attribute(1, normal_buffer_, mesh.positions.size());
+  upload(mesh.positions);
+}
+
+void MeshBuffers::upload(std::span<const Vec3> positions) {
+  fill(position_buffer_, positions);
+  if (!smooth_) return;
+  topology_.compute(triangles_, positions, normals_);
+  fill(normal_buffer_, normals_);
+}
+
+void MeshBuffers::draw() const {
+  glBindVertexArray(vertex_array_.id());
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * triangles_.size()), GL_UNSIGNED_INT, nullptr);
+}
+
+}  // namespace lagomorph::render::raster

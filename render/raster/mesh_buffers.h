@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "render/normals.h"
+#include "render/raster/gl_objects.h"
+#include "render/render_scene.h"
+
+namespace lagomorph::render::raster {
+
+/// True when every edge has exactly one neighbour that runs the other way, and the inside is inside (positive
+/// volume): then no back face is ever seen, and culling them halves the cost.
+bool is_closed(std::span<const Triangle>, std::span<const Vec3> positions);
+
+/// A mesh on the GL side: indices are uploaded once, positions and normals when they change.
+class MeshBuffers {
+public:
+  explicit MeshBuffers(const Mesh&);
+
+  void upload(std::span<const Vec3> positions);
+  /// All triangles, with position and (when smooth) normal as attributes 0 and 1.
+  void draw() const;
+
+  const Material& material() const { return material_; }
+  bool smooth() const { return smooth_; }
+  bool closed() const { return closed_; }
+
+private:
+  std::vector<Triangle> triangles_;
+  VertexNormals topology_;
+  std::vector<Vec3> normals_;
+  Material material_;
+  bool smooth_, closed_;
+  VertexArray vertex_array_;
+  Buffer indices_, position_buffer_, normal_buffer_;
+};
+
+}  // namespace lagomorph::render::raster

@@ -1,0 +1,55 @@
+#include "render/raster/shaders/shaders.h"
+
+namespace lagomorph::render::raster::shaders {
+
+// The block is FrameBlock of frame_block.h.
+const char* const frame = R"(
+const float PI = 3.14159265;
+
+struct Light {
+  vec4 position, right, up, normal, radiance, map, depth;
+};
+struct SkyDirection {
+  vec4 right, up, direction, radiance;
+};
+layout(std140, binding = 0) uniform Frame {
+  mat4 clip_from_world;
+  vec4 eye, forward, right, up, viewport;
+  vec4 zenith, horizon, background;
+  vec4 ground, ground_at, ground_color, ground_map;
+  vec4 sky_map;
+  vec4 counts;
+  Light lights[4];
+  SkyDirection sky_directions[16];
+};
+
+#ifdef FRAGMENT
+// The camera's ray through this pixel's centre; the direction has length 1 along the view axis.
+void pixel_ray(out vec3 origin, out vec3 direction) {
+  vec2 p = 2.0 * gl_FragCoord.xy * viewport.zw - 1.0;
+  vec3 across = p.x * right.xyz + p.y * up.xyz;
+  bool parallel_rays = eye.w > 0.5;
+  origin = eye.xyz + (parallel_rays ? across : vec3(0.0));
+  direction = parallel_rays ? forward.xyz : forward.xyz + across;
+}
+
+// Unit vector from a point to the camera.
+vec3 towards_eye(vec3 x) { return eye.w > 0.5 ? -forward.xyz : normalize(eye.xyz - x); }
+
+// Number of this pixel in its 2x2 quad, 0..3.
+float quad_index() {
+  vec2 odd = mod(floor(gl_FragCoord.xy), 2.0);
+  return odd.x + 2.0 * odd.y;
+}
+
+// Mean over the quad's four pixels, the same in each: they share their samples.
+float quad_mean(float a) {
+  vec2 to_other = 0.5 - mod(floor(gl_FragCoord.xy), 2.0);
+  a += to_other.x * dFdxFine(a);
+  a += to_other.y * dFdyFine(a);
+  return a;
+}
+#endif
+)";
+
+}  // namespace lagomorph::render::raster::shaders

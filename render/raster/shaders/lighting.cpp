@@ -1,0 +1,175 @@
+#include "render/raster/shaders/shaders.h"
+
+namespace lagomorph::render::raster::shaders {
+
+// The same surface as the path tracer's: Lambert under a GGX coat, or a metal [glTF 2.0, appendix B], with
+// Smith's height-correlated masking [Heitz 2014] and f90 fading with f0 below 2 %.
+const char* const brdf = R"(
+uniform vec3 base_color;
+uniform vec4 finish;  // roughness, metallic, the dielectric's f0
+
+struct Coat {
+  vec3 diffuse;       // albedo of the base
+  vec3 f0;
+  float f90;
+  vec2 dielectric;    // f0, f90
+  float alpha2;
+};
+
+float pow5(float x) {
+  float x2 = x * x;
+  return x2 * x2 * x;
+}
+
+Coat make_coat() {
+  float alpha = max(finish.x * finish.x, 1e-3);
+  vec3 f0 = mix(vec3(finish.z), base_color, finish.y);
+  float f90 = min(1.0, 50.0 * max(f0.r, max(f0.g, f0.b)));
+  return Coat((1.0 - finish.y) * base_color, f0, f90, vec2(finish.z, min(1.0, 50.0 * finish.z)), alpha * alpha);
+}
+
+// GGX times Smith's masking over 4 cos cos: D V [1/sr].
+float ggx(float nh, float nv, float nl, float a2) {
+  float k = nh * nh * (a2 - 1.0) + 1.0;
+  float d = a2 / (PI * k * k);
+  float root_v = sqrt(a2 + (1.0 - a2) * nv * nv);
+  float root_l = sqrt(a2 + (1.0 - a2) * nl * nl);
+  return d * 0.5 / (nl * root_v + nv * root_l);
+}
+
+// acos(c) / sin(acos(c)): a polynomial to 2e-5 of itself where c >= 0.
+float angle_over_sine(float c) {
+  float a = abs(c);
+  float f = 1.5707675 + a * (-0.9978972 + a * (0.7592518 + a * (-0.5393959 + a * (0.2731272 - a * 0.0658685))));
+  return c < 0.0 ? PI * inversesqrt(max(1.0 - c * c, 1e-12)) - f : f;
+}
+
+// Irradiance on a surface at x with normal n of a whole rectangle of radiance 1, by Lambert's formula; where the
+// surface's horizon cuts the rectangle, that of the sphere with the same form factor [Snyder 1996].
+float rectangle_irradiance(Light light, vec3 x, vec3 n, out vec3 direction) {
+  vec3 c = light.position.xyz - x;
+  vec3 r = light.right.w * light.right.xyz;
+  vec3 u = light.up.w * light.up.xyz;
+  vec3 a = normalize(c - r - u);
+  vec3 b = normalize(c + r - u);
+  vec3 d = normalize(c + r + u);
+  vec3 e = normalize(c - r + u);
+  vec3 f = cross(a, b) * angle_over_sine(dot(a, b)) + cross(b, d) * angle_over_sine(dot(b, d)) +
+           cross(d, e) * angle_over_sine(dot(d, e)) + cross(e, a) * angle_over_sine(dot(e, a));
+  f *= 0.5;
+  float size = length(f);
+  direction = size > 0.0 ? f / size : n;
+  if (dot(c, light.normal.xyz) >= 0.0) return 0.0;
+  float s2 = min(size / PI, 1.0);
+  float cosine = dot(n, direction);
+  if (cosine * cosine >= s2) return PI * s2 * max(cosine, 0.0);
+  float sine = sqrt(1.0 - cosine * cosine);
+  float k = sqrt(1.0 / s2 - 1.0);
+  float y = clamp(-k * cosine / sine, -1.0, 1.0);
+  float q = sine * sqrt(1.0 - y * y);
+  return max((cosine * acos(y) - k * q) * s2 + atan(q / k), 0.0);
+}
+
+// What the coat reflects of a rectangle of radiance 1: four points of it, each a quarter wide, so that the lobe is
+// widened by the quarter's own spread.
+vec3 rectangle_reflection(Light light, vec3 x, vec3 n, vec3 v, float nv, Coat coat) {
+  vec3 sum = vec3(0.0);
+  float area = light.right.w * light.up.w;
+  for (int k = 0; k < 4; ++k) {
+    float i = float(k & 1) - 0.5;
+    float j = float(k >> 1) - 0.5;
+    vec3 c = light.position.xyz + i * light.right.w * light.right.xyz + j * light.up.w * light.up.xyz - x;
+    float d2 = dot(c, c);
+    vec3 l = c * inversesqrt(d2);
+    float nl = dot(n, l);
+    float solid_angle = area * max(-dot(l, light.normal.xyz), 0.0) / d2;
+    vec3 h = normalize(l + v);
+    float a2 = min(coat.alpha2 + solid_angle / 24.0, 1.0);
+    float fresnel = pow5(1.0 - clamp(dot(h, v), 0.0, 1.0));
+    float lobe = nl > 0.0 ? ggx(clamp(dot(n, h), 0.0, 1.0), nv, nl, a2) * nl * solid_angle : 0.0;
+    sum += lobe * (coat.f0 + (coat.f90 - coat.f0) * fresnel);
+  }
+  return sum;
+}
+)";
+
+// Percentage-closer soft shadows [Fernando 2005] with the light's own rectangle for a filter. Seen from a
+// light's centre, a point at tangents t and distance z, and the rectangle's point s: what lies between them
+// at distance b appears at t + s (1/b - 1/z). So reciprocal distances, which the depth map holds up to a
+// scale, are averaged. A texel blocks if the surface that it saw is nearer than the receiver and above the
+// receiver's plane: no surface can shadow itself by the map's resolution, and nothing needs to be pushed away
+// from the light.
+const char* const shadow = R"(
+layout(binding = 0) uniform sampler2DArray shadow_maps;
+
+const vec2 r2_sequence = vec2(0.7548776662, 0.5698402910);  // [Roberts 2018]
+
+struct Receiver {
+  vec3 normal;       // in the light's frame
+  vec2 tangent;
+  float reciprocal;  // 1 / z
+  float plane;       // distance of the plane that blockers are above from the light
+};
+
+// 1 / distance of what blocks the light through a point of the map, or 0.
+float blocker(int i, Light light, Receiver at, vec2 tangent, float size) {
+  vec2 texel = clamp(floor((tangent * light.map.xy + light.map.zw) * size), 0.0, size - 1.0);
+  float d = texelFetch(shadow_maps, ivec3(texel, i), 0).r;
+  float reciprocal = d * light.depth.x + light.depth.y;
+  vec2 centre = ((texel + 0.5) / size - light.map.zw) / light.map.xy;
+  bool blocks = d < 1.0 && reciprocal > at.reciprocal &&
+                dot(at.normal, vec3(centre, 1.0)) > at.plane * reciprocal;
+  return blocks ? reciprocal : 0.0;
+}
+
+float light_visibility(int i, vec3 x, vec3 n) {
+  Light light = lights[i];
+  float size = float(textureSize(shadow_maps, 0).x);
+  vec3 p = x - light.position.xyz;
+  vec3 q = vec3(dot(p, light.right.xyz), dot(p, light.up.xyz), dot(p, light.normal.xyz));
+  Receiver at;
+  at.normal = vec3(dot(n, light.right.xyz), dot(n, light.up.xyz), dot(n, light.normal.xyz));
+  at.reciprocal = 1.0 / max(q.z, 1e-6);
+  at.tangent = q.xy * at.reciprocal;
+  at.plane = dot(at.normal, q) + light.depth.w;
+  vec2 half_size = vec2(light.right.w, light.up.w);
+  vec2 texel = 1.0 / (size * light.map.xy);
+  vec2 start = fract(0.5 + quad_index() * r2_sequence);
+  vec2 stride = fract(4.0 * r2_sequence);
+
+  vec2 reach = half_size * max(light.depth.z - at.reciprocal, 0.0) + texel;
+  vec2 low = (at.tangent - reach) * light.map.xy + light.map.zw;
+  vec2 high = (at.tangent + reach) * light.map.xy + light.map.zw;
+  bool inside = q.z > 0.0 && at.reciprocal < light.depth.z && all(lessThan(low, vec2(1.0))) &&
+                all(greaterThan(high, vec2(0.0)));
+  int taps = inside ? 16 : 0;
+  vec2 s = start;
+  float count = 0.0;
+  float sum = 0.0;
+  for (int k = 0; k < taps; ++k) {
+    float b = blocker(i, light, at, at.tangent + (2.0 * s - 1.0) * reach, size);
+    count += b > 0.0 ? 1.0 : 0.0;
+    sum += b;
+    s = fract(s + stride);
+  }
+  count = quad_mean(count);
+  sum = quad_mean(sum);
+
+  taps = count > 0.0 ? int(counts.y) : 0;
+  vec2 spread = max(half_size * (sum / max(count, 1e-6) - at.reciprocal), texel);
+  s = start;
+  float blocked = 0.0;
+  for (int k = 0; k < taps; ++k) {
+    blocked += blocker(i, light, at, at.tangent + (2.0 * s - 1.0) * spread, size) > 0.0 ? 1.0 : 0.0;
+    s = fract(s + stride);
+  }
+  blocked /= counts.y;
+  // Where the penumbra is hardly wider than a pixel, the quad's mean would only make blocks.
+  float shared_blocked = quad_mean(blocked);
+  vec2 footprint = max(abs(dFdxFine(at.tangent)), abs(dFdyFine(at.tangent)));
+  vec2 pixels = spread / max(footprint, vec2(1e-9));
+  return 1.0 - mix(blocked, shared_blocked, clamp(0.5 * min(pixels.x, pixels.y) - 0.5, 0.0, 1.0));
+}
+)";
+
+}  // namespace lagomorph::render::raster::shaders

@@ -1,0 +1,108 @@
+#include "render/raster/sky_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lagomorph::render::raster {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double golden_angle = pi * (3.0 - 2.23606797749978969);
+
+/// Integral of max(a cos(phi) + b, 0) over a turn, a >= 0.
+double clipped_cosine(double a, double b) {
+  if (b >= a) return 2.0 * pi * b;
+  if (b <= -a) return 0.0;
+  const double phi = std::acos(-b / a);
+  return 2.0 * (a * std::sin(phi) + b * phi);
+}
+
+}  // namespace
+
+SkyIrradiance sky_irradiance(float normal_y) {
+  // Over the height y = t^2 of the direction, so that the zenith's weight sqrt(y) is smooth: d omega = 2 t dt
+  // d phi.
+  const double ny = std::clamp(static_cast<double>(normal_y), -1.0, 1.0);
+  const double across = std::sqrt(1.0 - ny * ny);
+  constexpr int steps = 512;
+  double zenith = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double t = (i + 0.5) / steps;
+    const double y = t * t;
+    zenith += clipped_cosine(across * std::sqrt(1.0 - y * y), ny * y) * t * 2.0 * t / steps;
+  }
+  const double all = pi * (1.0 + ny) / 2.0;
+  return {static_cast<float>(all - zenith), static_cast<float>(zenith)};
+}
+
+std::vector<SkyIrradiance> sky_irradiance_table(int entries) {
+  std::vector<SkyIrradiance> table;
+  for (int i = 0; i < entries; ++i)
+    table.push_back(sky_irradiance(2.0F * static_cast<float>(i) / static_cast<float>(entries - 1) - 1.0F));
+  return table;
+}
+
+CoatAlbedo coat_albedo(float cos_view, float roughness) {
+  // Visible normals of GGX by spherical caps [Dupuy and Benyoub 2023], at a lattice; each weighs G2 / G1.
+  const double a = std::max(static_cast<double>(roughness) * roughness, 1e-3);
+  const double vz = std::max(static_cast<double>(cos_view), 1e-3);
+  const double vx = std::sqrt(std::max(1.0 - vz * vz, 0.0));
+  const double root_v = std::sqrt(a * a * vx * vx + vz * vz);
+  const double length = std::hypot(a * vx, vz);
+  constexpr int samples = 256;
+  double scale = 0.0;
+  double offset = 0.0;
+  for (int i = 0; i < samples; ++i) {
+    const double phi = golden_angle * i;
+    const double z = (1.0 - (i + 0.5) / samples) * (1.0 + vz / length) - vz / length;
+    const double radius = std::sqrt(std::max(1.0 - z * z, 0.0));
+    double hx = a * (radius * std::cos(phi) + a * vx / length);
+    double hy = a * radius * std::sin(phi);
+    double hz = std::max(z + vz / length, 1e-9);
+    const double norm = std::sqrt(hx * hx + hy * hy + hz * hz);
+    hx /= norm, hy /= norm, hz /= norm;
+    const double vh = vx * hx + vz * hz;
+    const double lz = 2.0 * vh * hz - vz;
+    if (lz <= 0.0) continue;
+    const double root_l = std::sqrt(a * a * (1.0 - lz * lz) + lz * lz);
+    // G1 = 2 v / (v + root_v), G2 = 2 v l / (l root_v + v root_l).
+    const double weight = lz * (vz + root_v) / (lz * root_v + vz * root_l);
+    const double fresnel = std::pow(1.0 - std::min(vh, 1.0), 5.0);
+    scale += weight * (1.0 - fresnel);
+    offset += weight * fresnel;
+  }
+  return {static_cast<float>(scale / samples), static_cast<float>(offset / samples)};
+}
+
+std::vector<CoatAlbedo> coat_albedo_table(int entries) {
+  std::vector<CoatAlbedo> table;
+  for (int r = 0; r < entries; ++r) {
+    for (int c = 0; c < entries; ++c) {
+      table.push_back(coat_albedo((static_cast<float>(c) + 0.5F) / static_cast<float>(entries),
+                                  (static_cast<float>(r) + 0.5F) / static_cast<float>(entries)));
+    }
+  }
+  return table;
+}
+
+std::array<SkyDirectionBlock, most_sky_directions> sky_directions(const Sky& sky) {
+  std::array<SkyDirectionBlock, most_sky_directions> blocks;
+  for (int i = 0; i < most_sky_directions; ++i) {
+    const double y = (i + 0.5) / most_sky_directions;
+    const double across = std::sqrt(1.0 - y * y);
+    const double phi = golden_angle * i;
+    const Vec3 direction(static_cast<float>(across * std::cos(phi)), static_cast<float>(y),
+                         static_cast<float>(across * std::sin(phi)));
+    const Vec3 right(static_cast<float>(-std::sin(phi)), 0.0F, static_cast<float>(std::cos(phi)));
+    const Vec3 up = direction.cross(right);
+    SkyDirectionBlock& block = blocks[static_cast<std::size_t>(i)];
+    block.right = vec4(right, 0.0F);
+    block.up = vec4(up, 0.0F);
+    block.direction = vec4(direction, 0.0F);
+    block.radiance = vec4(sky_radiance(sky, direction), 0.0F);
+  }
+  return blocks;
+}
+
+}  // namespace lagomorph::render::raster

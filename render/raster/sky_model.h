@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "render/raster/frame_block.h"
+#include "render/render_scene.h"
+
+/// Integrals that the shaders look up: pure functions, the same for every scene.
+namespace lagomorph::render::raster {
+
+/// Irradiance of the sky above the horizon on a surface whose normal has height n.y: weight of the horizon's
+/// radiance and of the zenith's. They add up to pi (1 + n.y) / 2.
+struct SkyIrradiance {
+  float horizon, zenith;
+};
+SkyIrradiance sky_irradiance(float normal_y);
+/// sky_irradiance at n.y = -1 .. 1 in `entries` equal steps.
+std::vector<SkyIrradiance> sky_irradiance_table(int entries);
+
+/// What the coat reflects of light that comes alike from all over: f0 * scale + f90 * offset (the split sum
+/// of [Karis 2013]), GGX with Smith's height-correlated masking.
+struct CoatAlbedo {
+  float scale, offset;
+};
+CoatAlbedo coat_albedo(float cos_view, float roughness);
+/// entries x entries, cos_view fastest, both at the middles of equal steps over [0, 1].
+std::vector<CoatAlbedo> coat_albedo_table(int entries);
+
+/// Directions that share the upper hemisphere evenly, each with two axes across and the sky's radiance.
+std::array<SkyDirectionBlock, most_sky_directions> sky_directions(const Sky&);
+
+}  // namespace lagomorph::render::raster

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "render/camera.h"
+#include "render/render_scene.h"
+
+namespace lagomorph::render::raster {
+
+/// Distances of the near and far plane [m].
+struct ViewRange {
+  float near = 0.1F;
+  float far = 1.0F;
+};
+
+/// Around everything that is before the camera, so that the depth buffer is spent on that: all positions, the
+/// ground's disc and the visible lights. What is nearer to a perspective camera than 1e-4 of the farthest is
+/// cut off.
+ViewRange view_range(const Camera&, std::span<const std::vector<Vec3>> positions, const RenderScene&);
+
+}  // namespace lagomorph::render::raster
