@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "apps/error.h"
@@ -79,20 +80,22 @@ void check_pin(const sim::PinSettings& p, const std::string& path, const Places&
     wrong_input(fmt::format("{}{}.box: the first corner must be the lesser one in x, y and z",
                             places.of(path + ".box"), path));
   }
-  if (p.plane && p.plane->normal.norm() == 0.0) {
+  if (p.plane && (p.plane->normal.array() == 0.0).all()) {
     wrong_input(fmt::format("{}{}.plane.normal must not be 0", places.of(path + ".plane.normal"), path));
   }
 }
 
 void check_camera(const render::CameraSettings& c, const Places& places) {
-  const render::Vec3 view = c.look_at - c.position;
-  if (view.norm() == 0.0F) {
+  // In double precision, where the squares of large floats do not overflow.
+  const Eigen::Vector3d view = c.look_at.cast<double>() - c.position.cast<double>();
+  const Eigen::Vector3d up = c.up.cast<double>();
+  if (view.norm() == 0.0) {
     const char* key = places.has("camera.look_at") ? "camera.look_at" : "camera.position";
     wrong_input(fmt::format("{}camera.position and camera.look_at are the same point", places.of(key)));
   }
-  // Below some ten units in the last place the picture's axes are noise.
-  if (c.up.normalized().cross(view.normalized()).norm() < 1e-6F) {
-    const char* fault = c.up.norm() == 0.0F ? "must not be 0" : "must not be along the view";
+  // Below some ten units in the last place of a float the picture's axes are noise.
+  if (up.normalized().cross(view.normalized()).norm() < 1e-6) {
+    const char* fault = up.norm() == 0.0 ? "must not be 0" : "must not be along the view";
     wrong_input(fmt::format("{}camera.up {}", places.of("camera.up"), fault));
   }
 }
