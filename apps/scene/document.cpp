@@ -138,7 +138,10 @@ void Document::apply(const std::string& override_text) {
   const std::string source = "--set " + override_text;
   const std::size_t equals = override_text.find('=');
   if (equals == std::string::npos || equals == 0) wrong_input(source + ": must be key.path=VALUE");
-  const std::vector<std::string> segments = segments_of(override_text.substr(0, equals), source);
+  const std::size_t begin = override_text.find_first_not_of(' ');
+  const std::size_t end = override_text.find_last_not_of(' ', equals - 1);
+  const std::vector<std::string> segments =
+      segments_of(begin < equals ? override_text.substr(begin, end + 1 - begin) : "", source);
   Setter setter(root_, source);
   for (std::size_t i = 0; i + 1 < segments.size(); ++i) {
     setter.enter(segments[i], index_of(segments[i + 1]) ? "[]" : "{}");

@@ -4,14 +4,20 @@
 
 #include <fmt/format.h>
 
-#include "apps/scene/choices.h"
+#include "render/color.h"
 #include "render/renderer.h"
+#include "sim/integrator.h"
+#include "sim/materials/table.h"
 
 namespace lagomorph::apps {
 namespace {
 
 constexpr Part simulation = Part::simulation;
 constexpr const char* pascal = "Pa";
+
+std::vector<std::string> mass_choices() { return {"consistent", "lumped"}; }
+std::vector<std::string> hessian_choices() { return {"auto", "projected"}; }
+std::vector<std::string> filter_choices() { return {"box", "gaussian", "blackman_harris"}; }
 
 void visit_time(sim::TimeSettings& t, KeyVisitor& v) {
   v.key({.name = "fps",
@@ -30,7 +36,7 @@ void visit_time(sim::TimeSettings& t, KeyVisitor& v) {
   v.key({.name = "integrator",
          .part = simulation,
          .meaning = "time-stepping scheme",
-         .choices = integrator_choices},
+         .choices = sim::integrator_names},
         &t.integrator);
   v.key({.name = "gravity", .unit = "m/s^2", .part = simulation, .meaning = "acceleration of free fall"},
         &t.gravity);
@@ -73,7 +79,7 @@ void visit_material(sim::MaterialSettings& m, KeyVisitor& v) {
          .part = simulation,
          .meaning = "energy density: neo_hookean is the lecture's, stable_neo_hookean is Smith 2018 without "
                     "and stable_neo_hookean_log with the logarithm",
-         .choices = material_choices},
+         .choices = sim::material_names},
         &m.model);
   v.key({.name = "young",
          .unit = pascal,
@@ -85,7 +91,7 @@ void visit_material(sim::MaterialSettings& m, KeyVisitor& v) {
   v.key({.name = "poisson",
          .bounds = inside(-1, 0.5),
          .part = simulation,
-         .meaning = "Poisson's ratio",
+         .meaning = "Poisson's ratio; of neo_hookean >= 0",
          .default_note = "0.3, with no other modulus"},
         &m.poisson);
   v.key({.name = "mu",
@@ -97,7 +103,7 @@ void visit_material(sim::MaterialSettings& m, KeyVisitor& v) {
   v.key({.name = "lambda",
          .unit = pascal,
          .part = simulation,
-         .meaning = "Lamé's first parameter, > -2/3 mu; with mu"},
+         .meaning = "Lamé's first parameter, > -2/3 mu, of neo_hookean >= 0; with mu"},
         &m.lambda);
   v.key({.name = "C",
          .unit = pascal,
@@ -107,8 +113,9 @@ void visit_material(sim::MaterialSettings& m, KeyVisitor& v) {
         &m.C);
   v.key({.name = "D",
          .unit = pascal,
+         .bounds = at_least(0),
          .part = simulation,
-         .meaning = "the lecture's D = lambda/2, > -2/3 C; with C, of neo_hookean"},
+         .meaning = "the lecture's D = lambda/2; with C, of neo_hookean"},
         &m.D);
 }
 
@@ -142,7 +149,7 @@ void visit_pin(sim::PinSettings& p, KeyVisitor& v) {
             &s.center);
         inside_sphere.key({.name = "radius",
                            .unit = "m",
-                           .bounds = above(0),
+                           .bounds = at_least(0),
                            .part = simulation,
                            .meaning = "its radius",
                            .required = true},
@@ -290,7 +297,9 @@ void visit_render(render::RenderSettings& r, KeyVisitor& v) {
   v.key({.name = "height", .unit = "pixels", .bounds = between(1, 16384), .meaning = "of the picture"},
         &r.height);
   v.key({.name = "samples", .bounds = between(1, 65536), .meaning = "paths a pixel (path only)"}, &r.samples);
-  v.key({.name = "tone_curve", .meaning = "from linear light to the display", .choices = tone_curve_choices},
+  v.key({.name = "tone_curve",
+         .meaning = "from linear light to the display",
+         .choices = render::tone_curve_names},
         &r.tone_curve);
   v.key(
       {.name = "exposure", .unit = "stops", .meaning = "linear light times 2^exposure before the tone curve"},

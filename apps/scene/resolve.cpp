@@ -9,6 +9,8 @@
 #include "apps/scene/read.h"
 #include "apps/scene/scene.h"
 #include "apps/utf8.h"
+#include "sim/error.h"
+#include "sim/materials/table.h"
 #include "sim/mesh_io.h"
 
 namespace lagomorph::apps {
@@ -31,44 +33,16 @@ void check_name(const std::string& name, const std::string& key, const Places& p
   }
 }
 
-/// One pair of moduli describes the material; with none it is young = 1e5 and poisson = 0.3.
+/// One pair of moduli describes a material; with none given it is that of young and poisson.
 void resolve_material(sim::MaterialSettings& m, const std::string& path, const Places& places) {
-  const auto both = [&](std::optional<double>& a, const char* a_name, std::optional<double>& b,
-                        const char* b_name) {
-    if (a.has_value() == b.has_value()) return;
-    const char* given = a ? a_name : b_name;
-    wrong_input(
-        fmt::format("{}{}.{} needs {} too", places.of(path + "." + given), path, given, a ? b_name : a_name));
-  };
-  const bool young = m.young || m.poisson, lame = m.mu || m.lambda, lecture = m.C || m.D;
-  if (young + lame + lecture > 1) {
-    const char* other = lecture ? (m.C ? "C" : "D") : (m.mu ? "mu" : "lambda");
-    const char* first = young ? (m.young ? "young" : "poisson") : (m.mu ? "mu" : "lambda");
-    wrong_input(fmt::format("{}{} has {} and {}: give young and poisson, or mu and lambda, or C and D",
-                            places.of(path + "." + other), path, first, other));
+  try {
+    sim::check_material(m, places.of(path) + path);
+  } catch (const sim::InputError& error) {
+    wrong_input(error.what());
   }
-  if (lecture && m.model != "neo_hookean") {
-    const char* given = m.C ? "C" : "D";
-    wrong_input(
-        fmt::format("{}{}.{} is only of the model neo_hookean, not of {}; give young and poisson, or mu and "
-                    "lambda",
-                    places.of(path + "." + given), path, given, m.model));
-  }
-  both(m.mu, "mu", m.lambda, "lambda");
-  both(m.C, "C", m.D, "D");
-  // A positive bulk modulus, lambda + 2/3 mu; poisson > -1 says the same.
-  if (lame && *m.lambda <= -2.0 / 3.0 * *m.mu) {
-    wrong_input(fmt::format("{}{}.lambda = {} is out of range; it must be > -2/3 mu = {}",
-                            places.of(path + ".lambda"), path, *m.lambda, -2.0 / 3.0 * *m.mu));
-  }
-  if (lecture && *m.D <= -2.0 / 3.0 * *m.C) {
-    wrong_input(fmt::format("{}{}.D = {} is out of range; it must be > -2/3 C = {}", places.of(path + ".D"),
-                            path, *m.D, -2.0 / 3.0 * *m.C));
-  }
-  if (!lame && !lecture) {
-    if (!m.young) m.young = 1e5;
-    if (!m.poisson) m.poisson = 0.3;
-  }
+  if (m.mu || m.C) return;
+  if (!m.young) m.young = 1e5;
+  if (!m.poisson) m.poisson = 0.3;
 }
 
 void check_pin(const sim::PinSettings& p, const std::string& path, const Places& places) {
@@ -135,6 +109,11 @@ void check_file(const SceneDesc& scene, const std::string& name, const std::stri
   }
   if (!fs::is_regular_file(scene.directory / name, none)) {
     wrong_input(fmt::format("{}{} = '{}' is not a file", places.of(key), key, name));
+  }
+  for (const fs::path& file : mesh_files(scene.directory / name)) {
+    if (fs::exists(file, none)) continue;
+    wrong_input(fmt::format("{}{} = '{}' needs '{}' beside it: there is no such file", places.of(key), key,
+                            name, file.filename().string()));
   }
 }
 

@@ -34,12 +34,9 @@ private:
   std::string path_;
 };
 
-/// The files behind a mesh's name: TetGen's come in pairs.
 std::vector<fs::path> files_of(const SceneDesc& scene, const std::string& name) {
   if (name.empty()) return {};
-  const fs::path file = fs::absolute(scene.directory / name).lexically_normal();
-  if (file.extension() != ".node" && file.extension() != ".ele") return {file};
-  return {fs::path(file).replace_extension(".node"), fs::path(file).replace_extension(".ele")};
+  return mesh_files(fs::absolute(scene.directory / name).lexically_normal());
 }
 
 class FileCollector : public PathVisitor {
@@ -94,6 +91,11 @@ std::vector<ResolvedKey> keys_of(const SceneDesc& scene, Part part) {
 std::vector<ResolvedKey> simulation_keys(const SceneDesc& scene) { return keys_of(scene, Part::simulation); }
 
 std::vector<ResolvedKey> picture_keys(const SceneDesc& scene) { return keys_of(scene, Part::picture); }
+
+std::vector<fs::path> mesh_files(const fs::path& mesh) {
+  if (mesh.extension() != ".node" && mesh.extension() != ".ele") return {mesh};
+  return {fs::path(mesh).replace_extension(".node"), fs::path(mesh).replace_extension(".ele")};
+}
 
 std::vector<InputFile> input_files(const SceneDesc& scene) {
   SceneDesc shown = scene;

@@ -41,6 +41,9 @@ struct InputFile {
 };
 std::vector<InputFile> input_files(const SceneDesc&);
 
+/// The files behind a mesh's name: TetGen's .node and .ele come in pairs.
+std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& mesh);
+
 /// One row a key: name, default, unit, range, meaning. `lagomorph info --keys` prints it and the README's
 /// table is made of it.
 std::string scene_key_table_markdown();

@@ -107,7 +107,7 @@ void settle(SceneDesc& s, RandomFill& random) {
     m = {m.model, {}, {}, {}, {}, {}, {}};
     const int kind = random.below(m.model == "neo_hookean" ? 3 : 2);
     if (kind == 0) m.young = 12345.678, m.poisson = 1.0 / 3.0;
-    if (kind == 1) m.mu = 0.1, m.lambda = -0.06;
+    if (kind == 1) m.mu = 0.1, m.lambda = 0.3;
     if (kind == 2) m.C = 1e-300, m.D = 1e300;
     for (sim::PinSettings& p : b.physics.pin) p.vertices.push_back(3);
   }
