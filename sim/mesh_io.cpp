@@ -26,10 +26,17 @@ struct TriFormat {
 constexpr std::array kTetFormats = {
     TetFormat{".mesh", io::read_medit, io::write_medit, ""},
     TetFormat{".msh", io::read_gmsh, io::write_gmsh, ""},
+    TetFormat{".node", io::read_tetgen_node, io::write_tetgen_node, ".ele"},
+    TetFormat{".ele", io::read_tetgen_ele, io::write_tetgen_ele, ".node"},
+    TetFormat{".vtk", io::read_vtk, io::write_vtk, ""},
+    TetFormat{".vtu", io::read_vtu, io::write_vtu, ""},
 };
 
 constexpr std::array kTriFormats = {
     TriFormat{".obj", io::read_obj, io::write_obj},
+    TriFormat{".off", io::read_off, io::write_off},
+    TriFormat{".ply", io::read_ply, io::write_ply},
+    TriFormat{".stl", io::read_stl, io::write_stl},
 };
 
 template <typename Table>

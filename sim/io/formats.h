@@ -13,12 +13,26 @@ namespace lagomorph::sim::io {
 
 TetMesh read_medit(const File&, Remarks&);
 TetMesh read_gmsh(const File&, Remarks&);
+TetMesh read_tetgen_node(const File&, Remarks&);  // both read the other file of the pair too
+TetMesh read_tetgen_ele(const File&, Remarks&);
+TetMesh read_vtk(const File&, Remarks&);
+TetMesh read_vtu(const File&, Remarks&);
 
 TriMesh read_obj(const File&, Remarks&);
+TriMesh read_off(const File&, Remarks&);
+TriMesh read_ply(const File&, Remarks&);
+TriMesh read_stl(const File&, Remarks&);
 
 std::string write_medit(const TetMesh&);
-std::string write_gmsh(const TetMesh&);
+std::string write_gmsh(const TetMesh&);  // 2.2 ASCII
+std::string write_tetgen_node(const TetMesh&);
+std::string write_tetgen_ele(const TetMesh&);
+std::string write_vtk(const TetMesh&);  // ASCII
+std::string write_vtu(const TetMesh&);
 
 std::string write_obj(const TriMesh&);
+std::string write_off(const TriMesh&);
+std::string write_ply(const TriMesh&);  // binary
+std::string write_stl(const TriMesh&);  // ASCII
 
 }  // namespace lagomorph::sim::io

@@ -69,8 +69,8 @@ void for_each_gmsh_section(GmshNumbers& numbers, Read read) {
     const std::string end = "$End" + name.substr(1);
     if (read(name)) {
       if (scanner.peek() != end) {
-        scanner.fail("expected '" + end + "', found " + in_quotes(scanner.peek()) + "; is the count in " + name +
-                     " right?");
+        scanner.fail("expected '" + end + "', found " + in_quotes(scanner.peek()) + "; is the count in " +
+                     name + " right?");
       }
     } else {
       const std::size_t found = scanner.bytes().find(end, scanner.position());

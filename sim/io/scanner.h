@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -10,6 +11,9 @@
 
 namespace lagomorph::sim::io {
 
+static_assert(std::endian::native == std::endian::little,
+              "binary meshes are read and written on little-endian machines");
+
 /// Reads a file front to back, as blank-separated text or as binary values, whatever the locale. Errors are
 /// InputErrors at the place of what was read last: `path:line: message` in text, `path: byte offset: message`
 /// in binary. `what` arguments name what is expected, for those errors ("a coordinate").
@@ -17,8 +21,9 @@ class Scanner {
 public:
   /// `file` must outlive the scanner. In text, `comment` and all that follows it on its line is blank (0: no
   /// comments).
-  explicit Scanner(const File& file, char comment = '\0')
-      : bytes_(file.bytes), path_(file.path), comment_(comment) {}
+  explicit Scanner(const File& file, char comment = '\0') : Scanner(file.bytes, file.path, comment) {}
+  Scanner(std::string_view bytes, const std::string& path, char comment = '\0')
+      : bytes_(bytes), path_(path), comment_(comment) {}
 
   /// Text. Blanks are spaces, tabs, line ends.
   bool at_end();                             // nothing but blanks and comments is left
