@@ -68,7 +68,7 @@ void for_each_gmsh_section(GmshNumbers& numbers, Read read) {
     if (numbers.is_binary()) scanner.skip_line();
     const std::string end = "$End" + name.substr(1);
     if (read(name)) {
-      if (scanner.peek() != end) {
+      if (!scanner.at_end() && scanner.peek() != end) {
         scanner.fail("expected '" + end + "', found " + in_quotes(scanner.peek()) + "; is the count in " +
                      name + " right?");
       }

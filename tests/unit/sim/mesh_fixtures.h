@@ -57,6 +57,38 @@ std::string error_of(Action action, const std::filesystem::path& folder = {}) {
   return "no error";
 }
 
+/// What reading a file of this name and content fails with, its folder cut from the front.
+inline std::string tet_error(const std::string& name, std::string_view bytes) {
+  const TempFolder folder;
+  Remarks remarks;
+  return error_of([&] { read_tet_mesh(folder.write(name, bytes), remarks); }, folder.path());
+}
+inline std::string tri_error(const std::string& name, std::string_view bytes) {
+  const TempFolder folder;
+  Remarks remarks;
+  return error_of([&] { read_tri_mesh(folder.write(name, bytes), remarks); }, folder.path());
+}
+
+/// The mesh in a file of this content.
+inline TetMesh tets_in(const std::string& name, std::string_view bytes) {
+  const TempFolder folder;
+  Remarks remarks;
+  return read_tet_mesh(folder.write(name, bytes), remarks);
+}
+inline TriMesh triangles_in(const std::string& name, std::string_view bytes) {
+  const TempFolder folder;
+  Remarks remarks;
+  return read_tri_mesh(folder.write(name, bytes), remarks);
+}
+
+/// `text` with its one occurrence of `from` replaced.
+inline std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  EXPECT_EQ(text.find(from, at + 1), std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
 /// One body around the unit tet of volume 1/6.
 inline TetMesh one_tet() {
   TetMesh mesh;
