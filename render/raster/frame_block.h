@@ -35,22 +35,28 @@ struct SkyDirectionBlock {
   Vec4 radiance;   // rgb of the sky there
 };
 
+/// A row of the shaders' table of surfaces (std430).
+struct SurfaceBlock {
+  Vec4 color;   // base colour, or radiance of a light; w 1 for a light
+  Vec4 finish;  // roughness, metallic, the dielectric's f0
+};
+
 struct FrameBlock {
   Mat4Column clip_from_world;
-  Vec4 eye;           // xyz [m], w 1 for an orthographic camera
-  Vec4 forward;       // xyz unit
-  Vec4 right;         // xyz, half the view's width long (at depth 1 when perspective)
-  Vec4 up;            // xyz, half the view's height long
-  Vec4 viewport;      // width, height [pixels] and their reciprocals
-  Vec4 zenith;        // rgb, with the sky's strength
-  Vec4 horizon;       // rgb, likewise
-  Vec4 background;    // rgb, w 1 where it is a colour, 0 where it is the sky
-  Vec4 ground;        // height, radius, fade_start [m], 1 where there is ground
-  Vec4 ground_at;     // xyz centre [m]
-  Vec4 ground_color;  // rgb diffuse albedo
-  Vec4 ground_map;    // world xz to the ground map's [0, 1]: scale x, offset zw; y: size of a texel [m]
-  Vec4 sky_map;       // xyz centre [m], w 1 / radius of the meshes' sphere [1/m]
-  Vec4 counts;        // lights, taps of the shadow filter, directions of the sky
+  Vec4 eye;              // xyz [m], w 1 for an orthographic camera
+  Vec4 forward;          // xyz unit
+  Vec4 right;            // xyz, half the view's width long (at depth 1 when perspective)
+  Vec4 up;               // xyz, half the view's height long
+  Vec4 viewport;         // width, height [pixels] and their reciprocals
+  Vec4 zenith;           // rgb, with the sky's strength
+  Vec4 horizon;          // rgb, likewise
+  Vec4 background;       // rgb, w 1 where it is a colour, 0 where it is the sky
+  Vec4 ground;           // height, radius, fade_start [m], 1 where there is ground
+  Vec4 ground_at;        // xyz centre [m]
+  Vec4 ground_map;       // world xz to the ground map's [0, 1]: scale x, offset zw; y: size of a texel [m]
+  Vec4 shadowed_ground;  // least x and z, largest x and z of the ground that meshes can hide a light from [m]
+  Vec4 sky_map;          // xyz centre [m], w 1 / radius of the meshes' sphere [1/m]
+  Vec4 counts;           // lights, taps of the shadow filter, directions of the sky, size of the ground map
   std::array<LightBlock, most_lights> lights;
   std::array<SkyDirectionBlock, most_sky_directions> sky;
 };

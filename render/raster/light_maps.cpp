@@ -11,7 +11,7 @@ namespace lagomorph::render::raster {
 namespace {
 
 constexpr int sky_map_size = 256;
-constexpr int ground_map_size = 256;
+constexpr int ground_map_size = 128;
 constexpr int sky_table_size = 64;
 constexpr int coat_table_size = 32;
 
@@ -27,8 +27,8 @@ void allocate_depth(const Texture& texture, int size, int layers) {
   glBindTexture(GL_TEXTURE_2D_ARRAY, texture.id());
   glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT32F, size, size, layers);
   sampling(GL_TEXTURE_2D_ARRAY, GL_NEAREST, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   const std::array<float, 4> nothing = {1.0F, 1.0F, 1.0F, 1.0F};
   glTexParameterfv(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BORDER_COLOR, nothing.data());
 }
@@ -45,11 +45,7 @@ struct Sphere {
   Vec3 center = Vec3::Zero();
   float radius = 1.0F;
 };
-Sphere bounding_sphere(std::span<const std::vector<Vec3>> positions) {
-  Eigen::AlignedBox3f box;
-  for (const std::vector<Vec3>& mesh : positions) {
-    for (const Vec3& p : mesh) box.extend(p);
-  }
+Sphere bounding_sphere(std::span<const std::vector<Vec3>> positions, const Eigen::AlignedBox3f& box) {
   if (box.isEmpty()) return {};
   const float step = std::exp2(std::ceil(std::log2(std::max(box.diagonal().norm(), 1e-4F))) - 5.0F);
   Sphere sphere;
@@ -66,7 +62,7 @@ Sphere bounding_sphere(std::span<const std::vector<Vec3>> positions) {
 
 LightMaps::LightMaps(const RasterSettings& settings)
     : settings_(settings),
-      depth_program_("depth map", {shaders::shadow_vertex}, {shaders::shadow_fragment}),
+      depth_program_("depth map", {shaders::depth_map_vertex}, {shaders::depth_map_fragment}),
       ground_program_(
           "ground map", {shaders::full_screen_vertex},
           {shaders::frame, shaders::brdf, shaders::shadow, shaders::sky, shaders::ground_map_fragment}) {
@@ -115,7 +111,6 @@ void LightMaps::set_scene(const RenderScene& scene, FrameBlock& block) {
   ground_ = g.enabled;
   block.ground = Vec4(g.height, g.radius, g.fade_start, g.enabled ? 1.0F : 0.0F);
   block.ground_at = vec4(Vec3(g.center.x(), g.height, g.center.z()), 0.0F);
-  block.ground_color = vec4(Color((1.0F - g.material.metallic) * g.material.base_color), 0.0F);
   block.counts = Vec4(static_cast<float>(scene.lights.size()), static_cast<float>(settings_.shadow_samples),
                       0.0F, static_cast<float>(ground_map_size));
 }
@@ -129,7 +124,12 @@ void LightMaps::fit(const RenderScene& scene, std::span<const std::vector<Vec3>>
     block.lights[i].depth = view.depth;
     light_views_.push_back(view.clip_from_world);
   }
-  const Sphere sphere = bounding_sphere(positions);
+  Eigen::AlignedBox3f box;
+  for (const std::vector<Vec3>& mesh : positions) {
+    for (const Vec3& p : mesh) box.extend(p);
+  }
+  block.shadowed_ground = shadowed_ground(scene, box);
+  const Sphere sphere = bounding_sphere(positions, box);
   sky_views_.clear();
   for (const SkyDirectionBlock& s : block.sky) {
     Mat4 clip = Mat4::Identity();
@@ -139,8 +139,7 @@ void LightMaps::fit(const RenderScene& scene, std::span<const std::vector<Vec3>>
     clip.block<3, 1>(0, 3) = -(clip.block<3, 3>(0, 0) * sphere.center);
     sky_views_.push_back(clip);
   }
-  const bool empty = std::all_of(positions.begin(), positions.end(), [](const auto& p) { return p.empty(); });
-  block.counts.z() = empty ? 0.0F : static_cast<float>(most_sky_directions);
+  block.counts.z() = box.isEmpty() ? 0.0F : static_cast<float>(most_sky_directions);
   block.sky_map = vec4(sphere.center, 1.0F / sphere.radius);
   const float half = 1.5F * sphere.radius + std::max(sphere.center.y() - scene.ground.height, 0.0F);
   const float scale = 0.5F / half;

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,25 +38,40 @@ RasterSettings checked(const RasterSettings& s) {
   return s;
 }
 
+/// All but those of LightMaps.
 struct Programs {
-  Program background{"background",
-                     {shaders::full_screen_vertex},
-                     {shaders::frame, shaders::sky, shaders::background_fragment}};
-  Program mesh{
-      "mesh",
-      {shaders::frame, shaders::mesh_vertex},
-      {shaders::frame, shaders::brdf, shaders::shadow, shaders::sky, shaders::shade, shaders::mesh_fragment}};
-  Program ground{"ground",
-                 {shaders::frame, shaders::ground_vertex},
-                 {shaders::frame, shaders::brdf, shaders::shadow, shaders::sky, shaders::shade,
-                  shaders::ground_point, shaders::ground_fragment}};
-  Program emitter{
-      "emitter", {shaders::frame, shaders::emitter_vertex}, {shaders::frame, shaders::emitter_fragment}};
-  Program mesh_depth{
-      "mesh depth", {shaders::frame, shaders::mesh_vertex}, {shaders::frame, shaders::mesh_depth_fragment}};
-  Program ground_depth{"ground depth",
-                       {shaders::frame, shaders::ground_vertex},
-                       {shaders::frame, shaders::ground_point, shaders::ground_depth_fragment}};
+  explicit Programs(int multisample)
+      : samples_("#define SAMPLES " + std::to_string(multisample) + "\n"),
+        seen("seen mesh", {shaders::frame, shaders::mesh_vertex}, {shaders::frame, shaders::seen_fragment}),
+        seen_light("seen light", {shaders::frame, shaders::emitter_vertex},
+                   {"#define EMITTER\n", shaders::frame, shaders::seen_fragment}),
+        ground_cover("ground cover", {shaders::frame, shaders::ground_vertex},
+                     {shaders::frame, shaders::ground_point, shaders::ground_cover_fragment}),
+        background("background", {shaders::full_screen_vertex},
+                   {shaders::frame, shaders::sky, shaders::background_fragment}),
+        ground("ground", {shaders::frame, shaders::ground_vertex},
+               {shaders::frame, shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point,
+                shaders::ground_fragment}),
+        shadowed_ground("shadowed ground", {shaders::frame, shaders::ground_vertex},
+                        {"#define SHADOWS\n", shaders::frame, shaders::brdf, shaders::shadow, shaders::sky,
+                         shaders::shade, shaders::ground_point, shaders::ground_fragment}),
+        count("count of layers", {shaders::full_screen_vertex},
+              {samples_.c_str(), shaders::frame, shaders::layers, shaders::count_fragment}),
+        layer(
+            "layer", {shaders::frame, shaders::layer_vertex},
+            {"#define SHADOWS\n", samples_.c_str(), shaders::frame, shaders::brdf, shaders::shadow,
+             shaders::sky, shaders::shade, shaders::ground_point, shaders::layers, shaders::layer_fragment}),
+        mesh_depth("mesh depth", {shaders::frame, shaders::mesh_vertex},
+                   {shaders::frame, shaders::mesh_depth_fragment}),
+        ground_depth("ground depth", {shaders::frame, shaders::ground_vertex},
+                     {shaders::frame, shaders::ground_point, shaders::ground_depth_fragment}) {}
+
+private:
+  std::string samples_;
+
+public:
+  Program seen, seen_light, ground_cover, background, ground, shadowed_ground, count, layer, mesh_depth,
+      ground_depth;
 };
 
 class RasterRenderer final : public Renderer {
@@ -83,18 +100,25 @@ public:
 private:
   /// All that lives in the context.
   struct GlSide {
-    explicit GlSide(const RasterSettings& settings) : maps(settings) {}
+    explicit GlSide(const RasterSettings& settings) : programs(settings.multisample), maps(settings) {}
     Programs programs;
     LightMaps maps;
-    Buffer frame;
+    Buffer frame, surfaces;
     VertexArray no_attributes;
     std::vector<MeshBuffers> meshes;
     std::optional<Targets> targets;
   };
 
+  void upload_surfaces(const RenderScene&);
   void upload_frame(const Camera&);
-  void draw_color();
-  void draw_depth();
+  void draw_full_screen() const;
+  void draw_ground_cells(const Program&, bool shadowed) const;
+  void draw_meshes(const Program&) const;
+  bool ground_hides(const Camera&) const;
+  void draw_seen(bool behind_ground) const;
+  void draw_background() const;
+  void draw_layers() const;
+  void draw_depth() const;
 
   RenderSettings settings_;
   RasterSettings raster_;
@@ -106,10 +130,9 @@ private:
   bool lights_are_stale_ = true;
 };
 
-void set_material(const Program& program, const Material& m) {
+SurfaceBlock surface_block(const Material& m) {
   const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
-  glUniform3f(program.location("base_color"), m.base_color.x(), m.base_color.y(), m.base_color.z());
-  glUniform4f(program.location("finish"), m.roughness, m.metallic, r * r, 0.0F);
+  return {vec4(m.base_color, 0.0F), Vec4(m.roughness, m.metallic, r * r, 0.0F)};
 }
 
 void RasterRenderer::set_scene(const RenderScene& scene) {
@@ -127,9 +150,21 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
     gl_->meshes.emplace_back(mesh);
     positions_.push_back(mesh.positions);
   }
+  upload_surfaces(scene);
   gl_->maps.set_scene(scene_, block_);
   lights_are_stale_ = true;
   check_gl("taking the scene");
+}
+
+/// The ground, the meshes, the lights.
+void RasterRenderer::upload_surfaces(const RenderScene& scene) {
+  std::vector<SurfaceBlock> surfaces = {surface_block(scene.ground.material)};
+  for (const Mesh& mesh : scene.meshes) surfaces.push_back(surface_block(mesh.material));
+  for (const AreaLight& light : scene.lights)
+    surfaces.push_back({vec4(Color(light.radiance * light.color), 1.0F), Vec4::Zero()});
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, gl_->surfaces.id());
+  glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(surfaces.size() * sizeof(SurfaceBlock)),
+               surfaces.data(), GL_STATIC_DRAW);
 }
 
 void RasterRenderer::update_positions(int mesh, std::span<const Vec3> positions) {
@@ -164,6 +199,7 @@ void RasterRenderer::upload_frame(const Camera& camera) {
   glBindBuffer(GL_UNIFORM_BUFFER, gl_->frame.id());
   glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameBlock), &block_, GL_DYNAMIC_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, gl_->frame.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, gl_->surfaces.id());
 }
 
 Image RasterRenderer::render(const Camera& camera, const FrameInfo&) {
@@ -180,7 +216,13 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo&) {
   lights_are_stale_ = false;
 
   Image image(camera.width(), camera.height());
-  draw_color();
+  const PixelRectangle seen = seen_rectangle(camera, positions_, scene_);
+  draw_background();
+  glScissor(seen.x, seen.y, seen.width, seen.height);
+  glEnable(GL_SCISSOR_TEST);
+  draw_seen(ground_hides(camera));
+  draw_layers();
+  glDisable(GL_SCISSOR_TEST);
   targets->read_color(image);
   if (std::find(settings_.channels.begin(), settings_.channels.end(), "depth") != settings_.channels.end()) {
     draw_depth();
@@ -190,59 +232,122 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo&) {
   return image;
 }
 
-/// Background first, because the ground's edge lets it through; the ground last, for it is the most of the
-/// picture and hidden by the rest.
-void RasterRenderer::draw_color() {
-  const Programs& programs = gl_->programs;
-  gl_->targets->begin_color();
-  glDisable(GL_BLEND);
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_DEPTH_TEST);
-  programs.background.use();
+void RasterRenderer::draw_full_screen() const {
   glBindVertexArray(gl_->no_attributes.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
+}
 
-  glEnable(GL_DEPTH_TEST);
-  programs.mesh.use();
+/// The middle of the ground's 3 x 3 cells, or the other eight.
+void RasterRenderer::draw_ground_cells(const Program& program, bool shadowed) const {
+  program.use();
+  glDisable(GL_CULL_FACE);
+  glBindVertexArray(gl_->no_attributes.id());
+  glUniform1i(program.location("first_cell"), shadowed ? 4 : 0);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, shadowed ? 1 : 8);
+}
+
+void RasterRenderer::draw_meshes(const Program& program) const {
+  program.use();
+  GLuint surface = 1;
   for (const MeshBuffers& mesh : gl_->meshes) {
     mesh.closed() ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
-    set_material(programs.mesh, mesh.material());
-    glUniform1i(programs.mesh.location("is_smooth"), mesh.smooth() ? 1 : 0);
+    glUniform1ui(program.location("surface"), surface++);
+    glUniform1i(program.location("is_smooth"), mesh.smooth() ? 1 : 0);
     mesh.draw();
   }
+}
 
-  glBindVertexArray(gl_->no_attributes.id());
+/// Whether something may be behind the ground.
+bool RasterRenderer::ground_hides(const Camera& camera) const {
+  const float height = scene_.ground.height;
+  if (!scene_.ground.enabled) return false;
+  if (camera.is_orthographic() || camera.position().y() <= height) return true;
+  return std::any_of(positions_.begin(), positions_.end(), [&](const std::vector<Vec3>& mesh) {
+    return std::any_of(mesh.begin(), mesh.end(), [&](const Vec3& p) { return p.y() < height; });
+  });
+}
+
+/// What is seen of meshes and visible lights, unlit, in every sample.
+void RasterRenderer::draw_seen(bool behind_ground) const {
+  const Programs& programs = gl_->programs;
+  gl_->targets->bind_seen();
+  glEnable(GL_DEPTH_TEST);
+  const std::array<GLuint, 4> nothing = {0, 0, 0, 0};
+  glClearBufferuiv(GL_COLOR, 0, nothing.data());
+  glClear(GL_DEPTH_BUFFER_BIT);
+  if (behind_ground) {
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    draw_ground_cells(programs.ground_cover, true);
+    draw_ground_cells(programs.ground_cover, false);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  }
+  draw_meshes(programs.seen);
+  programs.seen_light.use();
   glEnable(GL_CULL_FACE);
-  programs.emitter.use();
+  glBindVertexArray(gl_->no_attributes.id());
   for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
     if (!scene_.lights[i].visible) continue;
-    glUniform1i(programs.emitter.location("light"), static_cast<GLint>(i));
+    glUniform1i(programs.seen_light.location("light"), static_cast<GLint>(i));
+    glUniform1ui(programs.seen_light.location("surface"), static_cast<GLuint>(1 + gl_->meshes.size() + i));
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
-  if (!scene_.ground.enabled) return;
+}
+
+/// The background and the ground over it.
+void RasterRenderer::draw_background() const {
+  const Programs& programs = gl_->programs;
+  gl_->targets->bind_color();
   glDisable(GL_CULL_FACE);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
+  programs.background.use();
+  draw_full_screen();
   glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  programs.ground.use();
-  set_material(programs.ground, scene_.ground.material);
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  if (scene_.ground.enabled) {
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    draw_ground_cells(programs.shadowed_ground, true);
+    draw_ground_cells(programs.ground, false);
+  }
   glDisable(GL_BLEND);
 }
 
-void RasterRenderer::draw_depth() {
+/// What is seen over the background, lit once a pixel and surface.
+void RasterRenderer::draw_layers() const {
   const Programs& programs = gl_->programs;
-  gl_->targets->begin_depth();
-  glEnable(GL_DEPTH_TEST);
-  programs.mesh_depth.use();
-  for (const MeshBuffers& mesh : gl_->meshes) {
-    mesh.closed() ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
-    mesh.draw();
-  }
-  if (!scene_.ground.enabled) return;
+  gl_->targets->bind_color();
+  gl_->targets->bind_seen_texture(GL_TEXTURE6);
   glDisable(GL_CULL_FACE);
-  programs.ground_depth.use();
-  glBindVertexArray(gl_->no_attributes.id());
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_ALWAYS);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  programs.count.use();
+  draw_full_screen();
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_FALSE);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  programs.layer.use();
+  for (int i = 0; i < raster_.multisample; ++i) {
+    glUniform1i(programs.layer.location("layer"), i);
+    draw_full_screen();
+  }
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+}
+
+/// One sample a pixel, so that a depth is that of the surface at the pixel's centre.
+void RasterRenderer::draw_depth() const {
+  const Programs& programs = gl_->programs;
+  gl_->targets->bind_depth();
+  glEnable(GL_DEPTH_TEST);
+  const std::array<float, 4> nothing = {std::numeric_limits<float>::infinity(), 0.0F, 0.0F, 0.0F};
+  glClearBufferfv(GL_COLOR, 0, nothing.data());
+  glClear(GL_DEPTH_BUFFER_BIT);
+  draw_meshes(programs.mesh_depth);
+  if (!scene_.ground.enabled) return;
+  draw_ground_cells(programs.ground_depth, true);
+  draw_ground_cells(programs.ground_depth, false);
 }
 
 std::string RasterRenderer::description() const {

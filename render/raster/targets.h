@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "render/image.h"
 #include "render/raster/gl_objects.h"
 
@@ -14,23 +16,24 @@ public:
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Binds the colour target with its depth buffer, cleared.
-  void begin_color() const;
-  /// Mean of the samples, into the channel: 3 floats a pixel, rows from the top.
+  /// Binds the samples that say what is seen, with a depth buffer.
+  void bind_seen() const { bind(seen_target_, width_, height_); }
+  /// Binds those samples as a texture of this unit.
+  void bind_seen_texture(GLenum unit) const;
+  /// Binds the picture, linear colour, with another depth buffer.
+  void bind_color() const { bind(color_target_, width_, height_); }
+  /// Binds the depth channel, with the picture's depth buffer.
+  void bind_depth();
+
+  /// The picture into the channels "color" and "depth", rows from the top.
   void read_color(Image&);
-  /// Binds the depth channel's target, cleared to infinity.
-  void begin_depth();
   void read_depth(Image&);
 
 private:
-  void allocate_depth_channel();
-
   int width_, height_, samples_;
-  Program resolve_;
-  VertexArray no_attributes_;
-  Texture samples_color_, color_, depth_channel_;
-  Renderbuffer samples_depth_, depth_;
-  Framebuffer draw_target_, color_target_, depth_target_;
+  Texture seen_, color_, depth_channel_;
+  Renderbuffer seen_depth_, depth_;
+  Framebuffer seen_target_, color_target_, depth_target_;
   bool has_depth_channel_ = false;
   std::vector<float> pixels_;
 };

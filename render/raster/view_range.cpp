@@ -5,6 +5,30 @@
 
 namespace lagomorph::render::raster {
 
+namespace {
+
+template <typename Add>
+void for_each_corner(const Vec3& center, const Vec3& a, const Vec3& b, Add add) {
+  for (const float s : {-1.0F, 1.0F}) {
+    for (const float t : {-1.0F, 1.0F}) add(Vec3(center + s * a + t * b));
+  }
+}
+
+template <typename Add>
+void for_each_point(std::span<const std::vector<Vec3>> positions, const RenderScene& scene, Add add) {
+  for (const std::vector<Vec3>& mesh : positions) {
+    for (const Vec3& p : mesh) add(p);
+  }
+  for (const AreaLight& light : scene.lights) {
+    if (!light.visible) continue;
+    const LightFrame frame = light_frame(light);
+    for_each_corner(light.position, 0.5F * light.size.x() * frame.right, 0.5F * light.size.y() * frame.up,
+                    add);
+  }
+}
+
+}  // namespace
+
 ViewRange view_range(const Camera& camera, std::span<const std::vector<Vec3>> positions,
                      const RenderScene& scene) {
   float nearest = std::numeric_limits<float>::max();
@@ -14,29 +38,40 @@ ViewRange view_range(const Camera& camera, std::span<const std::vector<Vec3>> po
     nearest = std::min(nearest, depth);
     farthest = std::max(farthest, depth);
   };
-  for (const std::vector<Vec3>& mesh : positions) {
-    for (const Vec3& p : mesh) add(p);
-  }
-  const auto add_rectangle = [&](const Vec3& center, const Vec3& a, const Vec3& b) {
-    for (const float s : {-1.0F, 1.0F}) {
-      for (const float t : {-1.0F, 1.0F}) add(center + s * a + t * b);
-    }
-  };
+  for_each_point(positions, scene, add);
   const Ground& g = scene.ground;
   if (g.enabled) {
-    add_rectangle(Vec3(g.center.x(), g.height, g.center.z()), g.radius * Vec3::UnitX(),
-                  g.radius * Vec3::UnitZ());
-  }
-  for (const AreaLight& light : scene.lights) {
-    if (!light.visible) continue;
-    const LightFrame frame = light_frame(light);
-    add_rectangle(light.position, 0.5F * light.size.x() * frame.right, 0.5F * light.size.y() * frame.up);
+    for_each_corner(Vec3(g.center.x(), g.height, g.center.z()), g.radius * Vec3::UnitX(),
+                    g.radius * Vec3::UnitZ(), add);
   }
   if (!(farthest > 0.0F)) return {};  // nothing is before the camera
   ViewRange range;
   range.far = 1.01F * farthest;
   range.near = std::max(0.99F * nearest, camera.is_orthographic() ? 0.0F : 1e-4F * range.far);
   return range;
+}
+
+PixelRectangle seen_rectangle(const Camera& camera, std::span<const std::vector<Vec3>> positions,
+                              const RenderScene& scene) {
+  const ViewRange range = view_range(camera, positions, scene);
+  const Vec2 size(static_cast<float>(camera.width()), static_cast<float>(camera.height()));
+  Vec2 low = size;
+  Vec2 high = Vec2::Zero();
+  for_each_point(positions, scene, [&](const Vec3& p) {
+    if (!camera.is_orthographic() && camera.depth(p) < range.near) {  // its triangles may be anywhere
+      low = Vec2::Zero();
+      high = size;
+      return;
+    }
+    const Vec2 at = camera.project(p);
+    low = low.cwiseMin(at);
+    high = high.cwiseMax(at);
+  });
+  low = (low.array() - 2.0F).floor().max(0.0F).matrix();
+  high = (high.array() + 2.0F).ceil().matrix().cwiseMin(size);
+  if ((high - low).minCoeff() <= 0.0F) return {};
+  return {static_cast<int>(low.x()), camera.height() - static_cast<int>(high.y()),
+          static_cast<int>(high.x() - low.x()), static_cast<int>(high.y() - low.y())};
 }
 
 }  // namespace lagomorph::render::raster

@@ -19,4 +19,13 @@ struct ViewRange {
 /// cut off.
 ViewRange view_range(const Camera&, std::span<const std::vector<Vec3>> positions, const RenderScene&);
 
+/// A rectangle of pixels from the lower left corner, as OpenGL counts.
+struct PixelRectangle {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// Where the meshes and visible lights can be seen: a pixel or two larger than their projections.
+PixelRectangle seen_rectangle(const Camera&, std::span<const std::vector<Vec3>> positions,
+                              const RenderScene&);
+
 }  // namespace lagomorph::render::raster

@@ -12,16 +12,22 @@ struct Light {
 struct SkyDirection {
   vec4 right, up, direction, radiance;
 };
+struct Surface {
+  vec4 color;   // base colour, or radiance of a light; w 1 for a light
+  vec4 finish;  // roughness, metallic, the dielectric's f0
+};
 layout(std140, binding = 0) uniform Frame {
   mat4 clip_from_world;
   vec4 eye, forward, right, up, viewport;
   vec4 zenith, horizon, background;
-  vec4 ground, ground_at, ground_color, ground_map;
+  vec4 ground, ground_at, ground_map, shadowed_ground;
   vec4 sky_map;
   vec4 counts;
   Light lights[4];
   SkyDirection sky_directions[16];
 };
+
+layout(std430, binding = 0) readonly buffer Surfaces { Surface surfaces[]; };  // the ground's is the first
 
 #ifdef FRAGMENT
 // The camera's ray through this pixel's centre; the direction has length 1 along the view axis.
@@ -42,12 +48,17 @@ float quad_index() {
   return odd.x + 2.0 * odd.y;
 }
 
-// Mean over the quad's four pixels, the same in each: they share their samples.
-float quad_mean(float a) {
-  vec2 to_other = 0.5 - mod(floor(gl_FragCoord.xy), 2.0);
-  a += to_other.x * dFdxFine(a);
-  a += to_other.y * dFdyFine(a);
-  return a;
+// Sum over those of the quad's four pixels that see the same surface as this one, to judge by their depths.
+vec2 quad_sum(vec2 v, float depth, float tolerance) {
+  vec2 to_other = 1.0 - 2.0 * mod(floor(gl_FragCoord.xy), 2.0);
+  vec3 here = vec3(v, depth);
+  vec3 beside = here + to_other.x * dFdxFine(here);
+  vec3 above = here + to_other.y * dFdyFine(here);
+  vec3 across = beside + to_other.y * dFdyFine(beside);
+  v += abs(beside.z - depth) < tolerance ? beside.xy : vec2(0.0);
+  v += abs(above.z - depth) < tolerance ? above.xy : vec2(0.0);
+  v += abs(across.z - depth) < tolerance ? across.xy : vec2(0.0);
+  return v;
 }
 #endif
 )";

@@ -5,15 +5,13 @@ namespace lagomorph::render::raster::shaders {
 // The same surface as the path tracer's: Lambert under a GGX coat, or a metal [glTF 2.0, appendix B], with
 // Smith's height-correlated masking [Heitz 2014] and f90 fading with f0 below 2 %.
 const char* const brdf = R"(
-uniform vec3 base_color;
-uniform vec4 finish;  // roughness, metallic, the dielectric's f0
-
 struct Coat {
   vec3 diffuse;       // albedo of the base
   vec3 f0;
   float f90;
   vec2 dielectric;    // f0, f90
   float alpha2;
+  float roughness;
 };
 
 float pow5(float x) {
@@ -21,11 +19,12 @@ float pow5(float x) {
   return x2 * x2 * x;
 }
 
-Coat make_coat() {
-  float alpha = max(finish.x * finish.x, 1e-3);
-  vec3 f0 = mix(vec3(finish.z), base_color, finish.y);
+Coat make_coat(Surface s) {
+  float alpha = max(s.finish.x * s.finish.x, 1e-3);
+  vec3 f0 = mix(vec3(s.finish.z), s.color.rgb, s.finish.y);
   float f90 = min(1.0, 50.0 * max(f0.r, max(f0.g, f0.b)));
-  return Coat((1.0 - finish.y) * base_color, f0, f90, vec2(finish.z, min(1.0, 50.0 * finish.z)), alpha * alpha);
+  return Coat((1.0 - s.finish.y) * s.color.rgb, f0, f90, vec2(s.finish.z, min(1.0, 50.0 * s.finish.z)),
+              alpha * alpha, s.finish.x);
 }
 
 // GGX times Smith's masking over 4 cos cos: D V [1/sr].
@@ -122,7 +121,9 @@ float blocker(int i, Light light, Receiver at, vec2 tangent, float size) {
   return blocks ? reciprocal : 0.0;
 }
 
-float light_visibility(int i, vec3 x, vec3 n) {
+// Part of a light's rectangle that is seen from x on a plane with normal n. The pixels of a quad share their samples
+// where their depths are alike; `footprint` is the size of a pixel there [m].
+float light_visibility(int i, vec3 x, vec3 n, float depth, float footprint) {
   Light light = lights[i];
   float size = float(textureSize(shadow_maps, 0).x);
   vec3 p = x - light.position.xyz;
@@ -131,7 +132,7 @@ float light_visibility(int i, vec3 x, vec3 n) {
   at.normal = vec3(dot(n, light.right.xyz), dot(n, light.up.xyz), dot(n, light.normal.xyz));
   at.reciprocal = 1.0 / max(q.z, 1e-6);
   at.tangent = q.xy * at.reciprocal;
-  at.plane = dot(at.normal, q) + light.depth.w;
+  at.plane = dot(at.normal, q) + light.depth.w + 2.0 * footprint;
   vec2 half_size = vec2(light.right.w, light.up.w);
   vec2 texel = 1.0 / (size * light.map.xy);
   vec2 start = fract(0.5 + quad_index() * r2_sequence);
@@ -152,23 +153,20 @@ float light_visibility(int i, vec3 x, vec3 n) {
     sum += b;
     s = fract(s + stride);
   }
-  count = quad_mean(count);
-  sum = quad_mean(sum);
-
-  taps = count > 0.0 ? int(counts.y) : 0;
-  vec2 spread = max(half_size * (sum / max(count, 1e-6) - at.reciprocal), texel);
+  float tolerance = 10.0 * footprint;
+  vec2 found = quad_sum(vec2(sum, count), depth, tolerance);
+  taps = found.y > 0.0 ? int(counts.y) : 0;
+  vec2 spread = max(half_size * (found.x / max(found.y, 1.0) - at.reciprocal), texel);
   s = start;
   float blocked = 0.0;
   for (int k = 0; k < taps; ++k) {
     blocked += blocker(i, light, at, at.tangent + (2.0 * s - 1.0) * spread, size) > 0.0 ? 1.0 : 0.0;
     s = fract(s + stride);
   }
-  blocked /= counts.y;
   // Where the penumbra is hardly wider than a pixel, the quad's mean would only make blocks.
-  float shared_blocked = quad_mean(blocked);
-  vec2 footprint = max(abs(dFdxFine(at.tangent)), abs(dFdyFine(at.tangent)));
-  vec2 pixels = spread / max(footprint, vec2(1e-9));
-  return 1.0 - mix(blocked, shared_blocked, clamp(0.5 * min(pixels.x, pixels.y) - 0.5, 0.0, 1.0));
+  vec2 shared_blocked = quad_sum(vec2(blocked, counts.y), depth, tolerance);
+  float pixels = min(spread.x, spread.y) * max(q.z, 0.0) / footprint;
+  return 1.0 - mix(blocked / counts.y, shared_blocked.x / shared_blocked.y, clamp(0.5 * pixels - 0.5, 0.0, 1.0));
 }
 )";
 

@@ -21,28 +21,35 @@ void main() {
 }
 )";
 
-const char* const shadow_vertex = R"(
+const char* const depth_map_vertex = R"(
 layout(location = 0) in vec3 position;
 uniform mat4 clip_from_world;
 void main() { gl_Position = clip_from_world * vec4(position, 1.0); }
 )";
 
-// A square around the disc; the fragments know the disc.
+// The square around the disc in 3 x 3 cells; the middle one is `shadowed_ground`, where meshes can hide the
+// lights.
 const char* const ground_vertex = R"(
+uniform int first_cell;
 void main() {
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
-  vec2 xz = ground_at.xz + ground.y * corner;
-  gl_Position = clip_from_world * vec4(xz.x, ground.x, xz.y, 1.0);
+  int cell = first_cell + gl_InstanceID;
+  if (first_cell == 0 && cell >= 4) ++cell;  // all but the middle
+  ivec2 corner = ivec2(cell % 3, cell / 3) + ivec2(gl_VertexID & 1, gl_VertexID >> 1);
+  vec4 x = vec4(ground_at.x - ground.y, shadowed_ground.xz, ground_at.x + ground.y);
+  vec4 z = vec4(ground_at.z - ground.y, shadowed_ground.yw, ground_at.z + ground.y);
+  gl_Position = clip_from_world * vec4(x[corner.x], ground.x, z[corner.y], 1.0);
 }
 )";
 
 const char* const emitter_vertex = R"(
 uniform int light;
+out vec3 world;
 void main() {
   // From the front, right and up are mirrored.
   vec2 corner = vec2(gl_VertexID >> 1, gl_VertexID & 1) * 2.0 - 1.0;
   vec3 x = lights[light].position.xyz + corner.x * lights[light].right.w * lights[light].right.xyz +
            corner.y * lights[light].up.w * lights[light].up.xyz;
+  world = x;
   gl_Position = clip_from_world * vec4(x, 1.0);
 }
 )";
@@ -52,20 +59,147 @@ out vec4 color;
 void main() {
   vec3 origin, direction;
   pixel_ray(origin, direction);
-  color = vec4(background.w > 0.5 ? background.rgb : sky_radiance(normalize(direction)), 1.0);
+  color = vec4(background_radiance(direction), 1.0);
 }
 )";
 
-const char* const mesh_fragment = R"(
-in vec3 world;
+// What is seen in each sample: depth, the two normals, and 1 + the number of the surface. Triangles are small
+// and their pixels many, so that nothing is lit here.
+const char* const seen_fragment = R"(
+#ifndef EMITTER
 in vec3 smooth_normal;
-out vec4 color;
 uniform bool is_smooth;
+#endif
+in vec3 world;
+uniform uint surface;
+out uvec4 texel;
+
+// Unit vectors on the octahedron, unfolded [Meyer et al. 2010].
+uint octahedral(vec3 n) {
+  n /= abs(n.x) + abs(n.y) + abs(n.z);
+  vec2 p = n.z >= 0.0 ? n.xy : (1.0 - abs(n.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(n.xy, vec2(0.0)));
+  return packSnorm2x16(p);
+}
+
 void main() {
-  vec3 v = towards_eye(world);
   vec3 flat_normal = normalize(cross(dFdx(world), dFdy(world)));  // towards the viewer
-  vec3 n = is_smooth ? normalize(gl_FrontFacing ? smooth_normal : -smooth_normal) : flat_normal;
-  color = vec4(shade(world, n, flat_normal, v, sky_seen(world, n), radiance_from_below(world)), 1.0);
+  vec3 n = flat_normal;
+#ifndef EMITTER
+  if (is_smooth) n = normalize(gl_FrontFacing ? smooth_normal : -smooth_normal);
+#endif
+  texel = uvec4(floatBitsToUint(dot(world - eye.xyz, forward.xyz)), octahedral(n), octahedral(flat_normal), surface + 1u);
+}
+)";
+
+// The samples of a pixel, sorted into layers: one a surface that is seen in it, seldom more than one.
+const char* const layers = R"(
+#if SAMPLES > 1
+layout(binding = 6) uniform usampler2DMS seen_samples;
+#else
+layout(binding = 6) uniform usampler2D seen_samples;
+#endif
+
+vec3 direction_of(vec2 p) {
+  vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+  if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(n.xy, vec2(0.0)));
+  return normalize(n);
+}
+
+float pixel_footprint(float depth) {
+  return 2.0 * length(up.xyz) * viewport.w * (eye.w > 0.5 ? 1.0 : depth);
+}
+
+struct Sample {
+  float depth;
+  vec4 normals;  // both, on the octahedron
+  uint id;       // 1 + the surface's number, 0: nothing is seen
+};
+struct Layers {
+  Sample samples[SAMPLES];
+  int layer[SAMPLES];
+  int count;
+};
+
+// Of the same body, not one behind the other, and alike in direction (where the octahedron is not cut).
+bool same_surface(Sample a, Sample b) {
+  vec4 turn = abs(a.normals - b.normals);
+  return a.id == b.id && abs(a.depth - b.depth) < 8.0 * pixel_footprint(a.depth) &&
+         max(max(turn.x, turn.y), max(turn.z, turn.w)) < 0.4;
+}
+
+Layers sort_samples() {
+  Layers l;
+  l.count = 0;
+  for (int s = 0; s < SAMPLES; ++s) {
+    uvec4 texel = texelFetch(seen_samples, ivec2(gl_FragCoord.xy), s);
+    l.samples[s] = Sample(uintBitsToFloat(texel.x), vec4(unpackSnorm2x16(texel.y), unpackSnorm2x16(texel.z)),
+                          texel.w);
+    l.layer[s] = -1;
+    for (int r = 0; r < s; ++r) {
+      if (l.layer[s] < 0 && same_surface(l.samples[r], l.samples[s])) l.layer[s] = l.layer[r];
+    }
+    if (l.layer[s] < 0 && texel.w != 0u) l.layer[s] = l.count++;
+  }
+  return l;
+}
+)";
+
+// The number of a pixel's layers as a depth, so that the passes that light them skip all others.
+const char* const count_fragment = R"(
+void main() { gl_FragDepth = 0.125 * float(sort_samples().count); }
+)";
+
+const char* const layer_vertex = R"(
+uniform int layer;
+void main() {
+  vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  gl_Position = vec4(p, 2.0 * (0.125 * float(layer) + 0.0625) - 1.0, 1.0);
+}
+)";
+
+// Lights one layer of the pixel, to be put over what is behind: colour times coverage, and coverage.
+const char* const layer_fragment = R"(
+uniform int layer;
+out vec4 color;
+void main() {
+  Layers l = sort_samples();
+  float covered = 0.0;
+  float depth = 0.0;
+  vec4 normals = vec4(0.0);
+  uint id = 1u;
+  for (int s = 0; s < SAMPLES; ++s) {
+    if (l.layer[s] != layer) continue;
+    covered += 1.0;
+    depth += l.samples[s].depth;
+    normals += l.samples[s].normals;
+    id = l.samples[s].id;
+  }
+  vec3 origin, direction;
+  pixel_ray(origin, direction);
+  bool there = covered > 0.0;
+  Point p;
+  p.depth = there ? depth / covered : 1e9;  // unlike any neighbour's
+  p.x = origin + (there ? p.depth : 1.0) * direction;
+  p.footprint = pixel_footprint(there ? p.depth : 1.0);
+  vec3 v = -normalize(direction);
+  p.normal = there ? direction_of(normals.xy / covered) : v;
+  p.flat_normal = there ? direction_of(normals.zw / covered) : v;
+  Surface surface = surfaces[id - 1u];
+  vec3 lit = shade(p, v, surface, sky_seen(p.x, p.normal), radiance_from_below(p.x));
+  if (surface.color.w > 0.5) lit = surface.color.rgb;
+
+  // Behind the ground only what its fading edge lets through is seen, instead of the background there.
+  covered /= float(SAMPLES);
+  if (ground.w > 0.5 && (origin.y - ground.x) * (p.x.y - ground.x) < 0.0) {
+    vec3 on_ground;
+    float to_ground;
+    if (meet_ground(on_ground, to_ground)) {
+      vec3 background_light = background_radiance(direction);
+      color = vec4(covered * ground_fade(on_ground) * (lit - background_light), 0.0);
+      return;
+    }
+  }
+  color = vec4(covered * lit, covered);
 }
 )";
 
@@ -81,22 +215,35 @@ bool meet_ground(out vec3 x, out float depth) {
   return met;
 }
 float ground_distance(vec3 x) { return length(x.xz - ground_at.xz); }
+float ground_fade(vec3 x) {
+  float t = clamp((ground_distance(x) - ground.z) / (ground.y - ground.z), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
 )";
 
 const char* const ground_fragment = R"(
 out vec4 color;
 void main() {
-  vec3 x;
-  float depth;
-  bool met = meet_ground(x, depth);
-  float t = clamp((ground_distance(x) - ground.z) / (ground.y - ground.z), 0.0, 1.0);
-  float fade = met ? t * t * (3.0 - 2.0 * t) : 1.0;
-  vec3 v = towards_eye(x);
-  vec3 n = vec3(0.0, v.y > 0.0 ? 1.0 : -1.0, 0.0);
-  vec2 at = ground_map_at(x);
+  Point p;
+  bool met = meet_ground(p.x, p.depth);
+  vec3 v = towards_eye(p.x);
+  p.normal = vec3(0.0, v.y > 0.0 ? 1.0 : -1.0, 0.0);
+  p.flat_normal = p.normal;
+  p.footprint = 2.0 * length(up.xyz) * viewport.w * (eye.w > 0.5 ? 1.0 : p.depth);
+  p.depth = 0.0;  // all pixels here see the same plane
+  vec2 at = ground_map_at(p.x);
   vec3 seen = vec3(1.0);
   if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)))) seen = texture(ground_ambient, at).rgb;
-  color = vec4(shade(x, n, n, v, seen, horizon.rgb), 1.0 - fade);
+  color = vec4(shade(p, v, surfaces[0], seen, horizon.rgb), met ? 1.0 - ground_fade(p.x) : 0.0);
+}
+)";
+
+// Depth only, to hide what is below; the part that fades is none of its business.
+const char* const ground_cover_fragment = R"(
+void main() {
+  vec3 x;
+  float depth;
+  if (!meet_ground(x, depth) || ground_distance(x) > ground.z) discard;
 }
 )";
 
@@ -108,38 +255,22 @@ void main() {
   vec2 at = gl_FragCoord.xy / counts.w;
   vec3 x = vec3((at.x - ground_map.z) / ground_map.x, ground.x, (at.y - ground_map.w) / ground_map.x);
   vec3 n = vec3(0.0, 1.0, 0.0);
-  vec3 seen = sky_seen(x, n);
+  vec3 seen = sky_seen_softly(x, n);
   // Outside of the map all is seen; meet that at its border.
   vec2 edge = smoothstep(0.0, 0.1, min(at, 1.0 - at));
   seen = mix(vec3(1.0), seen, edge.x * edge.y);
   vec3 light = seen * open_sky(n);
   for (int i = 0; i < int(counts.x); ++i) {
     vec3 direction;
-    light += lights[i].radiance.rgb * rectangle_irradiance(lights[i], x, n, direction) * light_visibility(i, x, n);
+    light += lights[i].radiance.rgb * rectangle_irradiance(lights[i], x, n, direction) * light_visibility(i, x, n, 0.0, ground_map.y);
   }
   ambient = vec4(seen, 1.0);
-  bounce = vec4(ground_color.rgb / PI * light, 1.0);
+  bounce = vec4((1.0 - surfaces[0].finish.y) * surfaces[0].color.rgb / PI * light, 1.0);
 }
 )";
 
-const char* const emitter_fragment = R"(
-uniform int light;
-out vec4 color;
-void main() { color = vec4(lights[light].radiance.rgb, 1.0); }
-)";
-
-const char* const shadow_fragment = R"(
+const char* const depth_map_fragment = R"(
 void main() {}
-)";
-
-const char* const resolve_fragment = R"(
-layout(binding = 0) uniform sampler2DMS samples;
-out vec4 color;
-void main() {
-  ivec2 p = ivec2(gl_FragCoord.xy);
-  color = 0.25 * ((texelFetch(samples, p, 0) + texelFetch(samples, p, 1)) +
-                  (texelFetch(samples, p, 2) + texelFetch(samples, p, 3)));
-}
 )";
 
 const char* const mesh_depth_fragment = R"(

@@ -10,19 +10,23 @@ extern const char* const sky;           // the sky's light on a point, with what
 extern const char* const shade;         // all of it together
 extern const char* const ground_point;  // where a pixel sees the ground
 
+extern const char* const layers;  // the samples of a pixel, sorted by surface
+
 extern const char* const full_screen_vertex;
+extern const char* const layer_vertex;
 extern const char* const mesh_vertex;
-extern const char* const shadow_vertex;
+extern const char* const depth_map_vertex;
 extern const char* const ground_vertex;
 extern const char* const emitter_vertex;
 
 extern const char* const background_fragment;
-extern const char* const mesh_fragment;
+extern const char* const seen_fragment;
+extern const char* const count_fragment;
+extern const char* const layer_fragment;
 extern const char* const ground_fragment;
+extern const char* const ground_cover_fragment;
 extern const char* const ground_map_fragment;
-extern const char* const emitter_fragment;
-extern const char* const shadow_fragment;
-extern const char* const resolve_fragment;
+extern const char* const depth_map_fragment;
 extern const char* const mesh_depth_fragment;
 extern const char* const ground_depth_fragment;
 
