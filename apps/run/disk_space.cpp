@@ -1,0 +1,54 @@
+#include "apps/run/disk_space.h"
+
+#include <array>
+#include <filesystem>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "apps/error.h"
+#include "apps/run/state_file.h"
+
+namespace lagomorph::apps {
+
+namespace fs = std::filesystem;
+
+ExpectedSize expected_size(const std::vector<FrameJob>& jobs, int vertices, int levels,
+                           const render::RenderSettings& render) {
+  constexpr std::size_t record = 4096;
+  const std::size_t pixels = static_cast<std::size_t>(render.width) * static_cast<std::size_t>(render.height);
+  const std::size_t channels = render.channels.size() * pixels * sizeof(float);
+  const std::size_t usual_share =
+      render.backend == "path" ? 2 : 3;  // of 3 bytes a pixel; noise compresses less
+  ExpectedSize size;
+  for (const FrameJob& job : jobs) {
+    const std::size_t known =
+        record + (job.simulate ? state_file_size(vertices, levels) : 0) + (job.draw ? channels : 0);
+    size.least += known + (job.draw ? pixels / 20 : 0);
+    size.estimate += known + (job.draw ? 3 * pixels / usual_share : 0);
+  }
+  return size;
+}
+
+void require_space(const fs::path& folder, const ExpectedSize& size) {
+  std::error_code error;
+  fs::path there = fs::absolute(folder);
+  while (!fs::exists(there, error) && there.has_relative_path()) there = there.parent_path();
+  const fs::space_info space = fs::space(there, error);
+  if (error || space.available >= size.least) return;
+  throw Error(
+      ExitStatus::machine,
+      fmt::format("{}: {} are free on its disk; the run takes at least {} (about {})", folder.string(),
+                  size_text(space.available), size_text(size.least), size_text(size.estimate)));
+}
+
+std::string size_text(std::size_t bytes) {
+  constexpr std::array units = {"bytes", "kB", "MB", "GB", "TB"};
+  double value = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  for (; value >= 999.5 && unit + 1 < units.size(); ++unit) value /= 1000.0;
+  if (unit == 0) return fmt::format("{} bytes", bytes);
+  return fmt::format("{:.{}f} {}", value, value < 9.95 ? 1 : 0, units[unit]);
+}
+
+}  // namespace lagomorph::apps

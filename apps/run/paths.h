@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace lagomorph::apps {
+
+/// Where everything of a run stands.
+class RunPaths {
+public:
+  explicit RunPaths(std::filesystem::path root) : root_(std::move(root)) {}
+
+  const std::filesystem::path& root() const { return root_; }
+  std::filesystem::path run_json() const { return root_ / "run.json"; }
+  std::filesystem::path scene() const { return root_ / "scene.toml"; }
+  std::filesystem::path energy() const { return root_ / "energy.csv"; }
+  std::filesystem::path mesh() const { return root_ / "mesh.msh"; }
+  std::filesystem::path inputs() const { return root_ / "inputs"; }
+  std::filesystem::path states() const { return root_ / "states"; }
+  std::filesystem::path pictures() const { return root_ / "frames"; }
+  std::filesystem::path records() const { return root_ / "records"; }
+  std::filesystem::path channels() const { return root_ / "aov"; }
+  std::filesystem::path channel(std::string_view name) const { return channels() / name; }
+
+  std::filesystem::path state(int frame) const;
+  std::filesystem::path picture(int frame) const;
+  std::filesystem::path record(int frame) const;
+  std::filesystem::path channel(std::string_view name, int frame) const;
+  std::filesystem::path video(const std::string& scene_name) const { return root_ / (scene_name + ".mp4"); }
+
+private:
+  std::filesystem::path root_;
+};
+
+/// "frame_0000.npy"; numbers grow past 9999.
+std::string frame_file(int frame, std::string_view extension);
+/// The frame of a file's name of that form; nullopt for any other name.
+std::optional<int> frame_of(const std::filesystem::path& file, std::string_view extension);
+
+}  // namespace lagomorph::apps

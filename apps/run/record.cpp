@@ -1,0 +1,108 @@
+#include "apps/run/record.h"
+
+#include <array>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/error.h"
+#include "apps/file_io.h"
+
+namespace lagomorph::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+FrameRecord from_json(const Json& json) {
+  FrameRecord record;
+  record.frame = json.at("frame").get<int>();
+  const Json& seconds = json.at("seconds");
+  if (json.contains("state_sha256")) {
+    StateRecord& state = record.state.emplace();
+    state.sha256 = json.at("state_sha256").get<std::string>();
+    state.made_by = json.at("state_made_by").get<std::string>();
+    state.time = json.at("time").get<double>();
+    const Json& energy = json.at("energy");
+    state.energy = {energy.at("kinetic").get<double>(), energy.at("elastic").get<double>(),
+                    energy.at("gravitational").get<double>()};
+    state.mass = json.at("mass").get<double>();
+    const auto momentum = json.at("momentum").get<std::array<double, 3>>();
+    state.momentum = {momentum[0], momentum[1], momentum[2]};
+    state.report.steps = json.at("steps").get<int>();
+    state.report.halvings = json.at("halvings").get<int>();
+    state.report.newton_iterations = json.at("newton_iterations").get<int>();
+    state.report.residual = json.at("residual").get<double>();
+    state.report.hit_rounding_floor = json.at("hit_rounding_floor").get<bool>();
+    state.seconds = seconds.at("simulation").get<double>();
+  }
+  if (json.contains("picture_sha256")) {
+    PictureRecord& picture = record.picture.emplace();
+    picture.sha256 = json.at("picture_sha256").get<std::string>();
+    picture.made_by = json.at("picture_made_by").get<std::string>();
+    picture.of_state = json.at("picture_of_state").get<std::string>();
+    picture.channels = json.at("channels").get<std::map<std::string, std::string>>();
+    picture.rendering_seconds = seconds.at("rendering").get<double>();
+    picture.writing_seconds = seconds.at("writing").get<double>();
+  }
+  return record;
+}
+
+}  // namespace
+
+Json to_json(const FrameRecord& record) {
+  Json json = {{"frame", record.frame}};
+  Json seconds = Json::object();
+  if (record.state) {
+    const StateRecord& state = *record.state;
+    json["time"] = state.time;
+    json["state_sha256"] = state.sha256;
+    json["state_made_by"] = state.made_by;
+    json["steps"] = state.report.steps;
+    json["halvings"] = state.report.halvings;
+    json["newton_iterations"] = state.report.newton_iterations;
+    json["residual"] = state.report.residual;
+    json["hit_rounding_floor"] = state.report.hit_rounding_floor;
+    json["energy"] = {{"kinetic", state.energy.kinetic},
+                      {"elastic", state.energy.elastic},
+                      {"gravitational", state.energy.gravitational}};
+    json["mass"] = state.mass;
+    json["momentum"] = {state.momentum.x(), state.momentum.y(), state.momentum.z()};
+    seconds["simulation"] = state.seconds;
+  }
+  if (record.picture) {
+    const PictureRecord& picture = *record.picture;
+    json["picture_sha256"] = picture.sha256;
+    json["picture_made_by"] = picture.made_by;
+    json["picture_of_state"] = picture.of_state;
+    json["channels"] = picture.channels;
+    seconds["rendering"] = picture.rendering_seconds;
+    seconds["writing"] = picture.writing_seconds;
+  }
+  json["seconds"] = std::move(seconds);
+  return json;
+}
+
+void write_record(const RunPaths& paths, const FrameRecord& record) {
+  write_file(paths.record(record.frame), to_json(record).dump(1) + "\n");
+}
+
+std::map<int, FrameRecord> read_records(const RunPaths& paths) {
+  std::map<int, FrameRecord> records;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(paths.records(), error)) {
+    const std::optional<int> frame = frame_of(entry.path(), ".json");
+    if (!frame) continue;
+    try {
+      FrameRecord record = from_json(Json::parse(read_file(entry.path())));
+      if (record.frame == *frame) records.emplace(*frame, std::move(record));
+    } catch (const Json::exception&) {
+      // of another version, or damaged
+    } catch (const Error&) {
+      // unreadable
+    }
+  }
+  return records;
+}
+
+}  // namespace lagomorph::apps

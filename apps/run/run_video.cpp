@@ -1,0 +1,61 @@
+#include "apps/run/run_video.h"
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "apps/error.h"
+#include "apps/file_io.h"
+#include "apps/hash.h"
+#include "apps/video/process.h"
+#include "apps/video/video.h"
+
+namespace lagomorph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has_picture(const std::map<int, FrameRecord>& records, int frame) {
+  const auto record = records.find(frame);
+  return record != records.end() && record->second.picture.has_value();
+}
+
+/// Changes with the pictures and with how they are put together.
+std::string source_hash(const VideoJob& job, const std::map<int, FrameRecord>& records) {
+  VideoJob anywhere = job;  // a moved run has the same video
+  anywhere.pictures = anywhere.output = "";
+  std::string text = shell_text(ffmpeg_command(anywhere));
+  for (int frame = job.first; frame <= job.last; ++frame) text += "\n" + records.at(frame).picture->sha256;
+  return sha256(text);
+}
+
+bool is_up_to_date(const RunPaths& paths, const VideoRecord& there, const VideoRecord& wanted) {
+  const fs::path file = paths.root() / wanted.file;
+  std::error_code error;
+  return there.file == wanted.file && there.source == wanted.source && fs::is_regular_file(file, error) &&
+         sha256_file(file) == there.sha256;
+}
+
+}  // namespace
+
+std::optional<VideoUpdate> update_video(const RunPaths& paths, const SceneDesc& scene,
+                                        const std::map<int, FrameRecord>& records, FrameRange frames,
+                                        const std::optional<VideoRecord>& there,
+                                        const std::function<bool()>& stop) {
+  VideoJob job{paths.pictures(),    frames.first,           frames.last, scene.time.fps, scene.render.width,
+               scene.render.height, paths.video(scene.name)};
+  for (int frame = job.first; frame <= job.last; ++frame) {
+    if (has_picture(records, frame)) continue;
+    throw Error(ExitStatus::wrong_input, "--video: " + paths.picture(frame).string() + " is not there");
+  }
+  while (has_picture(records, job.first - 1)) --job.first;
+  while (has_picture(records, job.last + 1)) ++job.last;
+  VideoRecord wanted{job.output.filename().string(), job.first, job.last, source_hash(job, records), ""};
+  if (there && is_up_to_date(paths, *there, wanted)) return VideoUpdate{*there, false};
+  if (!make_video(job, stop)) return std::nullopt;
+  if (there && there->file != wanted.file) remove_file(paths.root() / fs::path(there->file).filename());
+  wanted.sha256 = sha256_file(job.output);
+  return VideoUpdate{std::move(wanted), true};
+}
+
+}  // namespace lagomorph::apps

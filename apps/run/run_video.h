@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "apps/cli/options.h"
+#include "apps/run/paths.h"
+#include "apps/run/record.h"
+#include "apps/run/run_json.h"
+#include "apps/scene/scene_desc.h"
+
+namespace lagomorph::apps {
+
+struct VideoUpdate {
+  VideoRecord record;
+  bool made = false;  // false: it was up to date
+};
+
+/// Brings RUN/<name>.mp4 up to date: of all pictures around `frames` that have no gap between them, so that a
+/// run in shards ends with the video of the whole. Left alone when it is that already. Returns what run.json
+/// tells of it; nullopt when `stop` ended it. Throws Error(machine), with the command to run later, when
+/// ffmpeg cannot.
+std::optional<VideoUpdate> update_video(const RunPaths&, const SceneDesc&,
+                                        const std::map<int, FrameRecord>& records, FrameRange frames,
+                                        const std::optional<VideoRecord>& there,
+                                        const std::function<bool()>& stop);
+
+}  // namespace lagomorph::apps

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "sim/model.h"
+
+namespace lagomorph::apps {
+
+/// The file of a state: float64, C order, shape (levels, 2, V, 3): levels newest first, then positions [m]
+/// and velocities [m/s].
+std::string encode_state(const sim::State&);
+
+/// The state of a file's bytes. `origin` names the file. Throws Error(wrong_input) for anything but a finite
+/// state of `vertices` vertices.
+sim::State decode_state(std::string_view bytes, const std::string& origin, int frame, double fps,
+                        int vertices);
+
+/// Size of such a file. [bytes]
+std::size_t state_file_size(int vertices, int levels);
+
+}  // namespace lagomorph::apps

@@ -1,0 +1,63 @@
+#include "apps/run/states_of_run.h"
+
+#include <filesystem>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "apps/error.h"
+#include "apps/file_io.h"
+#include "apps/hash.h"
+
+namespace lagomorph::apps {
+
+namespace fs = std::filesystem;
+
+StatesOfRun::StatesOfRun(const RunPaths& paths, const Identity& of_run, int frame_count) : paths_(paths) {
+  std::error_code error;
+  for (const auto& [frame, record] : read_records(paths)) {
+    if (frame >= frame_count || !record.state || record.state->made_by != of_run.state_maker()) continue;
+    if (fs::is_regular_file(paths.state(frame), error)) records_.emplace(frame, *record.state);
+  }
+  if (records_.contains(0)) return;
+  throw Error(ExitStatus::wrong_input,
+              fmt::format("{}: has no states; lagomorph simulate {} --out {} makes them",
+                          paths.root().string(), paths.scene().string(), paths.root().string()));
+}
+
+FrameRange StatesOfRun::all() const {
+  FrameRange range{0, 0};
+  while (records_.contains(range.last + 1)) ++range.last;
+  return range;
+}
+
+void StatesOfRun::require(FrameRange range) const {
+  tbb::parallel_for(range.first, range.last + 1, [&](int frame) {
+    const auto record = records_.find(frame);
+    const bool there = record != records_.end();
+    if (there && sha256_file(paths_.state(frame)) == record->second.sha256) return;
+    throw Error(ExitStatus::wrong_input,
+                fmt::format("{}: {}; lagomorph simulate {} --out {} makes it", paths_.state(frame).string(),
+                            there ? "is not what its record tells" : "is not there", paths_.scene().string(),
+                            paths_.root().string()));
+  });
+}
+
+void StatesOfRun::bring_to(const RunPaths& run, std::map<int, FrameRecord>& records) const {
+  make_folder(run.states());
+  make_folder(run.records());
+  std::error_code error;
+  for (const auto& [frame, state] : records_) {
+    FrameRecord& record = records[frame];
+    const bool known = record.state && record.state->sha256 == state.sha256;
+    if (known && fs::is_regular_file(run.state(frame), error)) continue;
+    link_file(paths_.state(frame), run.state(frame));
+    record.frame = frame;
+    record.state = state;
+    if (record.picture && record.picture->of_state != state.sha256) record.picture.reset();
+    write_record(run, record);
+  }
+}
+
+}  // namespace lagomorph::apps

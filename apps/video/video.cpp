@@ -1,0 +1,75 @@
+#include "apps/video/video.h"
+
+#include <fmt/format.h>
+
+#include "apps/error.h"
+#include "apps/file_io.h"
+#include "apps/video/process.h"
+
+namespace lagomorph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A name that ffmpeg takes for a file's, whatever it begins with.
+std::string file_name(const fs::path& path) {
+  const std::string text = path.string();
+  return text.starts_with("-") || text.find(':') != std::string::npos ? "file:" + text : text;
+}
+
+/// The pattern of the pictures for ffmpeg, to which a % in a folder's name is one of its own.
+std::string picture_pattern(const fs::path& folder) {
+  std::string text;
+  for (const char c : file_name(folder)) text += c == '%' ? std::string("%%") : std::string(1, c);
+  return (fs::path(text) / "frame_%04d.png").string();
+}
+
+std::string filters(const VideoJob& job) {
+  std::string text;
+  const int right = job.width % 2, bottom = job.height % 2;
+  if (right + bottom > 0) {
+    text = fmt::format("pad={}:{},fillborders=right={}:bottom={}:mode=smear,", job.width + right,
+                       job.height + bottom, right, bottom);
+  }
+  return text + "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+bitexact";
+}
+
+/// The last line that says something.
+std::string last_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
+  return text.substr(text.find_last_of('\n') + 1);
+}
+
+}  // namespace
+
+std::vector<std::string> ffmpeg_command(const VideoJob& job) {
+  return {"ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-framerate",
+          fmt::format("{:.17g}", job.fps), "-start_number", std::to_string(job.first), "-i",
+          picture_pattern(job.pictures), "-frames:v", std::to_string(job.last - job.first + 1), "-vf",
+          filters(job), "-c:v", "libx264", "-preset", "medium", "-crf", "18", "-pix_fmt", "yuv420p",
+          // The tables of the sRGB pictures; without them players guess.
+          "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range",
+          "tv",
+          // The same bytes on any machine: x264's decisions depend on its number of threads.
+          "-threads", "4", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1",
+          "-movflags", "+faststart", "-f", "mp4", file_name(job.output)};
+}
+
+bool make_video(const VideoJob& job, const std::function<bool()>& stop) {
+  const std::string later =
+      "; the pictures are there, make the video later with: " + shell_text(ffmpeg_command(job));
+  VideoJob temporary = job;
+  temporary.output = temporary_name(job.output);
+  const ProcessResult result = run_process(ffmpeg_command(temporary), stop);
+  if (result.found && result.status == 0) {
+    rename_into_place(temporary.output, job.output);
+    return true;
+  }
+  remove_file(temporary.output);
+  if (stop()) return false;
+  if (!result.found) throw Error(ExitStatus::machine, "--video: ffmpeg is not on the PATH" + later);
+  throw Error(ExitStatus::machine, fmt::format("--video: ffmpeg failed with status {}: {}{}", result.status,
+                                               last_line(result.error_output), later));
+}
+
+}  // namespace lagomorph::apps
