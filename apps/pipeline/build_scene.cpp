@@ -1,0 +1,118 @@
+#include "apps/pipeline/build_scene.h"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "sim/error.h"
+#include "sim/mesh_io.h"
+#include "sim/placement.h"
+
+namespace lagomorph::apps {
+namespace {
+
+std::string size_of(const sim::Points& X) {
+  const sim::Vec3 size = (X.colwise().maxCoeff() - X.colwise().minCoeff()).transpose();
+  return fmt::format("{:.3g} x {:.3g} x {:.3g} m", size.x(), size.y(), size.z());
+}
+
+void note_all(Progress& progress, const std::string& origin, const sim::Remarks& remarks) {
+  for (const std::string& remark : remarks) {
+    progress.note(remark.starts_with(origin) ? remark : origin + ": " + remark);
+  }
+}
+
+sim::TriMesh read_fine_mesh(const BodyDesc& body, const std::filesystem::path& file, Progress& progress) {
+  sim::Remarks remarks;
+  sim::TriMesh fine = sim::read_tri_mesh(file, remarks);
+  sim::place(fine.X, body.physics);
+  progress.note(fmt::format("{}: {} vertices, {} triangles, {} as placed", file.string(), fine.X.rows(),
+                            fine.triangles.size(), size_of(fine.X)));
+  note_all(progress, file.string(), remarks);
+  return fine;
+}
+
+std::vector<render::Vec3> to_render(const sim::Points& points) {
+  std::vector<render::Vec3> positions(static_cast<std::size_t>(points.rows()));
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    positions[i] = points.row(static_cast<Eigen::Index>(i)).transpose().cast<float>();
+  }
+  return positions;
+}
+
+}  // namespace
+
+sim::Model build_model(const SceneDesc& scene, Progress& progress) {
+  std::vector<sim::BodyInput> bodies;
+  for (const BodyDesc& body : scene.body) {
+    const std::filesystem::path file = scene.directory / body.mesh;
+    sim::Remarks remarks;
+    sim::TetMesh mesh = sim::read_tet_mesh(file, remarks);
+    sim::Points placed = mesh.X;
+    sim::place(placed, body.physics);
+    progress.note(fmt::format("{}: {} vertices, {} tets, {} as placed", file.string(), mesh.vertex_count(),
+                              mesh.tet_count(), size_of(placed)));
+    note_all(progress, file.string(), remarks);
+    bodies.push_back({std::move(mesh), body.physics});
+  }
+  return {std::move(bodies), scene.time.gravity};
+}
+
+std::vector<sim::Surface> build_surfaces(const SceneDesc& scene, const sim::Model& model,
+                                         Progress& progress) {
+  std::vector<sim::Surface> surfaces;
+  for (std::size_t i = 0; i < scene.body.size(); ++i) {
+    const BodyDesc& body = scene.body[i];
+    const int index = static_cast<int>(i);
+    if (body.surface.mesh.empty()) {
+      surfaces.push_back(sim::Surface::boundary(model.mesh(), index));
+      continue;
+    }
+    const std::filesystem::path file = scene.directory / body.surface.mesh;
+    const sim::TriMesh fine = read_fine_mesh(body, file, progress);
+    try {
+      surfaces.push_back(sim::Surface::embedded(model.mesh(), index, fine, body.surface.max_outside));
+    } catch (const sim::InputError& e) {
+      throw sim::InputError(file.string() + ": " + e.what());
+    }
+    if (surfaces.back().outside_count() > 0) {
+      progress.note(fmt::format("{}: {} vertices lie outside of the tets, by {:.2g} m at most", file.string(),
+                                surfaces.back().outside_count(), surfaces.back().outside_distance()));
+    }
+  }
+  return surfaces;
+}
+
+render::RenderScene build_render_scene(const SceneDesc& scene, const sim::Model& model,
+                                       const std::vector<sim::Surface>& surfaces) {
+  const sim::VecX X = model.initial_state().q;
+  render::RenderScene drawn;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    render::Mesh mesh;
+    mesh.name = model.mesh().bodies[i].name;
+    for (const sim::Triangle& t : surfaces[i].triangles()) {
+      mesh.triangles.push_back({static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
+                                static_cast<std::uint32_t>(t[2])});
+    }
+    mesh.positions = to_render(surfaces[i].positions(X));
+    mesh.material = scene.body[i].look;
+    mesh.smooth = scene.body[i].surface.smooth;
+    mesh.body_id = static_cast<int>(i);
+    drawn.meshes.push_back(std::move(mesh));
+  }
+  drawn.ground = scene.ground;
+  drawn.lights = scene.light;
+  drawn.sky = scene.sky;
+  drawn.background = scene.background;
+  return drawn;
+}
+
+void move_meshes(render::Renderer& renderer, const std::vector<sim::Surface>& surfaces, const sim::VecX& q) {
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    renderer.update_positions(static_cast<int>(i), to_render(surfaces[i].positions(q)));
+  }
+}
+
+}  // namespace lagomorph::apps

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "apps/progress/progress.h"
+#include "apps/scene/scene_desc.h"
+#include "render/render_scene.h"
+#include "render/renderer.h"
+#include "sim/model.h"
+#include "sim/surface.h"
+
+namespace lagomorph::apps {
+
+/// The model that a scene describes. Meshes are read, checked and placed; their sizes and remarks are told.
+/// Throws sim::InputError.
+sim::Model build_model(const SceneDesc&, Progress&);
+
+/// What is drawn of each body: the boundary of its tets or the fine mesh that it carries. Throws
+/// sim::InputError.
+std::vector<sim::Surface> build_surfaces(const SceneDesc&, const sim::Model&, Progress&);
+
+/// What a renderer draws, the bodies at rest.
+render::RenderScene build_render_scene(const SceneDesc&, const sim::Model&, const std::vector<sim::Surface>&);
+
+/// Moves the renderer's meshes to where the surfaces are at q.
+void move_meshes(render::Renderer&, const std::vector<sim::Surface>&, const sim::VecX& q);
+
+}  // namespace lagomorph::apps

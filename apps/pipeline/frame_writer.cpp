@@ -1,0 +1,78 @@
+#include "apps/pipeline/frame_writer.h"
+
+#include <array>
+#include <string>
+
+#include "apps/error.h"
+#include "apps/file_io.h"
+#include "apps/hash.h"
+#include "apps/npy.h"
+#include "apps/pipeline/stopwatch.h"
+#include "apps/run/state_file.h"
+#include "render/color.h"
+#include "render/png.h"
+
+namespace lagomorph::apps {
+namespace {
+
+std::string encode_channel(const render::Image& image, const render::Channel& channel) {
+  const std::array<std::size_t, 3> shape = {static_cast<std::size_t>(image.height()),
+                                            static_cast<std::size_t>(image.width()),
+                                            static_cast<std::size_t>(channel.components)};
+  return npy_bytes(channel.values, std::span(shape).first(channel.components == 1 ? 2 : 3));
+}
+
+}  // namespace
+
+FrameWriter::FrameWriter(const RunPaths& paths, const Identity& identity,
+                         const render::RenderSettings& settings, const std::map<int, FrameRecord>& records)
+    : paths_(paths), identity_(identity), settings_(settings), records_(records) {
+  for (const auto& folder : {paths.states(), paths.pictures(), paths.records()}) make_folder(folder);
+  for (const std::string& channel : settings.channels) make_folder(paths.channel(channel));
+}
+
+void FrameWriter::write(const DrawnFrame& frame) const {
+  const Stopwatch watch;
+  const FrameJob& job = frame.of.job;
+  const auto known = records_.find(job.frame);
+  FrameRecord record = known == records_.end() ? FrameRecord{} : known->second;
+  record.frame = job.frame;
+  if (frame.of.made) record.state = write_state(frame.of.state, *frame.of.made);
+  if (record.picture && record.picture->of_state != record.state->sha256) record.picture.reset();
+  if (frame.image) {
+    record.picture = write_picture(job.frame, *frame.image);
+    record.picture->of_state = record.state->sha256;
+    record.picture->rendering_seconds = frame.seconds;
+    record.picture->writing_seconds = watch.seconds();
+  }
+  if (frame.of.made || frame.image) write_record(paths_, record);
+}
+
+StateRecord FrameWriter::write_state(const sim::State& state, StateRecord record) const {
+  const std::string bytes = encode_state(state);
+  write_file(paths_.state(state.frame), bytes);
+  record.sha256 = sha256(bytes);
+  record.made_by = identity_.state_maker();
+  return record;
+}
+
+PictureRecord FrameWriter::write_picture(int frame, const render::Image& image) const {
+  const render::Picture picture = render::tone_map(image, settings_.tone_curve, settings_.exposure);
+  const std::string png = render::encode_png(picture, settings_.png_compression);
+  write_file(paths_.picture(frame), png);
+  PictureRecord record;
+  record.sha256 = sha256(png);
+  record.made_by = identity_.picture_hash();
+  for (const std::string& name : settings_.channels) {
+    const render::Channel* channel = image.find(name);
+    if (channel == nullptr) {
+      throw Error(ExitStatus::machine, "the renderer '" + settings_.backend + "' gave no channel " + name);
+    }
+    const std::string bytes = encode_channel(image, *channel);
+    write_file(paths_.channel(name, frame), bytes);
+    record.channels[name] = sha256(bytes);
+  }
+  return record;
+}
+
+}  // namespace lagomorph::apps

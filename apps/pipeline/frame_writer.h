@@ -1,0 +1,33 @@
+#pragma once
+
+#include <map>
+
+#include "apps/pipeline/frames.h"
+#include "apps/run/identity.h"
+#include "apps/run/paths.h"
+#include "apps/run/record.h"
+#include "render/settings.h"
+
+namespace lagomorph::apps {
+
+/// Writes frames: the state, then picture and channels, then the record of both. Safe to use from many
+/// threads, each with frames of its own.
+class FrameWriter {
+public:
+  /// `records` are those of the frames that are there. Makes the folders.
+  FrameWriter(const RunPaths&, const Identity&, const render::RenderSettings&,
+              const std::map<int, FrameRecord>& records);
+
+  void write(const DrawnFrame&) const;
+
+private:
+  StateRecord write_state(const sim::State&, StateRecord) const;
+  PictureRecord write_picture(int frame, const render::Image&) const;
+
+  const RunPaths& paths_;
+  const Identity& identity_;
+  const render::RenderSettings& settings_;
+  const std::map<int, FrameRecord>& records_;
+};
+
+}  // namespace lagomorph::apps

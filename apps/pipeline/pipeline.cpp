@@ -1,0 +1,100 @@
+#include "apps/pipeline/pipeline.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <optional>
+#include <semaphore>
+#include <utility>
+
+#include "apps/pipeline/bounded_queue.h"
+#include "apps/pipeline/build_scene.h"
+#include "apps/pipeline/frame_writer.h"
+#include "apps/pipeline/state_source.h"
+#include "apps/pipeline/stop.h"
+#include "apps/pipeline/stopwatch.h"
+#include "apps/pipeline/workers.h"
+#include "render/camera.h"
+
+namespace lagomorph::apps {
+namespace {
+
+constexpr std::size_t frames_between_stages = 2;  // bounds the memory
+constexpr int most_writers = 2;                   // encoding is quicker than drawing
+
+/// Lets no more stages be at work at once than there are threads.
+class Turns {
+public:
+  explicit Turns(int threads) : free_(threads) {}
+  auto take(const auto& work) {
+    free_.acquire();
+    struct Release {
+      std::counting_semaphore<>& free;
+      ~Release() { free.release(); }
+    } const release{free_};
+    return work();
+  }
+
+private:
+  std::counting_semaphore<> free_;
+};
+
+DrawnFrame draw(const PipelineInput& in, const std::optional<render::Camera>& camera, StateFrame frame) {
+  DrawnFrame drawn{.of = std::move(frame), .image = {}, .seconds = 0.0};
+  if (!drawn.of.job.draw || stop_asked()) return drawn;  // a stopped run still keeps the state
+  const Stopwatch watch;
+  move_meshes(*in.renderer, in.surfaces, drawn.of.state.q);
+  drawn.image = in.renderer->render(*camera, {drawn.of.job.frame, drawn.of.state.t});
+  drawn.seconds = watch.seconds();
+  return drawn;
+}
+
+}  // namespace
+
+PipelineResult run_pipeline(const PipelineInput& in, Progress& progress) {
+  const render::RenderSettings& settings = in.scene.render;
+  std::optional<render::Camera> camera;
+  if (in.renderer != nullptr) camera.emplace(in.scene.camera, settings.width, settings.height);
+  StateSource states(in.scene, in.model, in.integrator, in.paths);
+  const FrameWriter writer(in.paths, in.identity, settings, in.records);
+  BoundedQueue<StateFrame> to_draw(frames_between_stages);
+  BoundedQueue<DrawnFrame> to_write(frames_between_stages);
+  Turns turns(in.threads);
+  std::atomic<int> frames_done = 0, states_made = 0, pictures_made = 0;
+  Workers workers([&] {
+    to_draw.abandon();
+    to_write.abandon();
+  });
+  progress.begin(static_cast<int>(in.jobs.size()));
+
+  workers.start([&] {  // 1. In order, each frame's state is read or stepped from the one before,
+    for (const FrameJob& job : in.jobs) {
+      if (stop_asked()) break;
+      std::optional<StateFrame> frame = turns.take([&] { return states.next(job); });
+      if (!frame || !to_draw.push(std::move(*frame))) break;
+    }
+    to_draw.close();
+  });
+  for (int i = 0; i < std::clamp(in.threads - 1, 1, most_writers); ++i) {
+    workers.start([&] {  // 3. and it is written, with its record, while the next ones are on their way.
+      while (const std::optional<DrawnFrame> frame = to_write.pop()) {
+        turns.take([&] { writer.write(*frame); });
+        frames_done += frame->of.job.draw && !frame->image ? 0 : 1;
+        states_made += frame->of.made ? 1 : 0;
+        pictures_made += frame->image ? 1 : 0;
+        progress.frame_done();
+      }
+    });
+  }
+  workers.guard([&] {  // 2. the renderer draws it in the thread that made it,
+    while (std::optional<StateFrame> frame = to_draw.pop()) {
+      if (!to_write.push(turns.take([&] { return draw(in, camera, std::move(*frame)); }))) break;
+    }
+    to_write.close();
+  });
+  const std::exception_ptr error = workers.finish();
+  progress.end();
+  return {frames_done, states_made, pictures_made, states.failure(), error};
+}
+
+}  // namespace lagomorph::apps

@@ -1,0 +1,214 @@
+#include "apps/pipeline/production.h"
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "apps/file_io.h"
+#include "apps/pipeline/build_scene.h"
+#include "apps/pipeline/pipeline.h"
+#include "apps/pipeline/stop.h"
+#include "apps/pipeline/stopwatch.h"
+#include "apps/run/disk_space.h"
+#include "apps/run/gather.h"
+#include "apps/run/inputs.h"
+#include "apps/run/result.h"
+#include "apps/run/run_json.h"
+#include "apps/run/run_video.h"
+#include "sim/integrator.h"
+#include "sim/mesh_io.h"
+
+namespace lagomorph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// The mesh of all bodies, with a physical tag per body.
+std::string mesh_text(const sim::Model& model) {
+  sim::TetMesh mesh = model.mesh();
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
+    for (int t = mesh.bodies[b].tets.begin; t < mesh.bodies[b].tets.end; ++t) {
+      mesh.tags[static_cast<std::size_t>(t)] = static_cast<int>(b) + 1;
+    }
+  }
+  return sim::write_tet_mesh(mesh, ".msh");
+}
+
+Json mesh_sizes(const sim::Model& model, const std::vector<sim::Surface>& surfaces) {
+  const sim::TetMesh& mesh = model.mesh();
+  Json bodies = Json::array();
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
+    bodies.push_back({{"name", mesh.bodies[b].name},
+                      {"vertices", mesh.bodies[b].vertices.size()},
+                      {"tets", mesh.bodies[b].tets.size()},
+                      {"surface_vertices", surfaces[b].vertex_count()},
+                      {"surface_triangles", surfaces[b].triangles().size()}});
+  }
+  return {{"vertices", mesh.vertex_count()}, {"tets", mesh.tet_count()}, {"bodies", std::move(bodies)}};
+}
+
+/// run.json as it will be. What is only told stays as it was where nothing is made.
+RunInfo new_info(const Production& p) {
+  RunInfo info = make_run_info(self_contained(p.scene, p.paths), p.identity,
+                               p.renderer ? p.renderer->description() : "");
+  if (!p.contents.info) return info;
+  const RunInfo& old = *p.contents.info;
+  info.video = old.video;
+  for (const char* key : {"mesh", "machine", "dependencies"}) {
+    if (p.jobs.empty() && old.about.contains(key)) info.about[key] = old.about[key];
+  }
+  return info;
+}
+
+/// Makes RUN's folder where it is not, and keeps it to us.
+void take_folder(Production& p) {
+  if (p.lock) return;
+  make_folder(p.paths.root());
+  p.lock.emplace(p.paths.root());
+  p.lock->take(RunLock::Kind::exclusive);
+  if (!fs::exists(p.paths.run_json())) return;
+  throw Error(ExitStatus::wrong_input,
+              p.paths.root().string() + ": another lagomorph began this run meanwhile");
+}
+
+/// Records of frames that the scene has; a run that was longer keeps its further ones on disk.
+std::map<int, FrameRecord> within(const std::map<int, FrameRecord>& records, int frame_count) {
+  return {records.begin(), records.lower_bound(frame_count)};
+}
+
+/// Brings what RUN says of itself up to date. run.json first: it tells the next run whose the rest is.
+void prepare_folder(Production& p, RunInfo& info) {
+  if (p.contents.other_pictures > 0 && info.video) {
+    remove_file(p.paths.root() / fs::path(info.video->file).filename());
+    info.video.reset();
+  }
+  write_file_if_changed(p.paths.run_json(),
+                        run_json_text(info, within(p.contents.matching, p.scene.time.frames)), Durable::yes);
+  write_inputs(p.scene, p.paths);
+  remove_unmatched(p.paths, p.contents);
+  if (p.states != nullptr) p.states->bring_to(p.paths, p.contents.matching);
+}
+
+/// Makes the missing frames, from the model on. Up to take_folder nothing is written; nullopt when stopped
+/// there.
+std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress& progress) {
+  const sim::Model model = build_model(p.scene, progress);
+  const std::vector<sim::Surface> surfaces = build_surfaces(p.scene, model, progress);
+  if (p.renderer) p.renderer->set_scene(build_render_scene(p.scene, model, surfaces));
+  const auto integrator = sim::make_integrator(p.scene.time, p.scene.solver, model);
+  const ExpectedSize size =
+      expected_size(p.jobs, model.mesh().vertex_count(), 1 + integrator->history_levels(), p.scene.render);
+  require_space(p.paths.root(), size);
+  progress.note(fmt::format("{}: {} {} to make, about {}", p.paths.root().string(), p.jobs.size(),
+                            p.jobs.size() == 1 ? "frame" : "frames", size_text(size.estimate)));
+  info.about["mesh"] = mesh_sizes(model, surfaces);
+  if (stop_asked()) return std::nullopt;
+
+  take_folder(p);
+  if (p.lock->is_exclusive()) {
+    prepare_folder(p, info);
+    write_file_if_changed(p.paths.mesh(), mesh_text(model), Durable::yes);
+    if (p.share) p.lock->take(RunLock::Kind::shared);
+  }
+  return run_pipeline({p.scene, model, surfaces, *integrator, p.renderer.get(), p.paths, p.identity,
+                       p.contents.matching, p.jobs, p.threads},
+                      progress);
+}
+
+/// What the frames on disk and their making say of how it went. Throws what a stage threw, and
+/// Error(simulation) when the simulation could not go on.
+void check_made(const Production& p, const PipelineResult& made, const RunResult& result) {
+  if (made.error) std::rethrow_exception(made.error);
+  if (made.failure.empty()) return;
+  const std::string good =
+      result.records.empty() ? "none" : fmt::format("0..{}", result.records.rbegin()->first);
+  throw Error(ExitStatus::simulation,
+              fmt::format("{}; {} has the good frames, {}", made.failure, p.paths.root().string(), good));
+}
+
+/// run.json, energy.csv; when that fails after a stage did, the stage's failure is the one to tell.
+std::map<int, FrameRecord> gather_after(const Production& p, const RunInfo& info,
+                                        const PipelineResult& made) {
+  try {
+    return gather(p.paths, info, p.scene.time.frames);
+  } catch (const Error&) {
+    if (made.error) std::rethrow_exception(made.error);
+    throw;
+  }
+}
+
+/// 1. Makes what is missing, 2. gathers, 3. makes the video.
+ExitStatus make_all(Production& p, RunResult& result, Progress& progress) {
+  RunInfo info = new_info(p);
+  std::optional<PipelineResult> made;
+  if (!p.jobs.empty()) {
+    made = make_frames(p, info, progress);
+    if (!made) return stop_status();
+  } else {
+    if (p.lock->is_exclusive()) prepare_folder(p, info);
+    made.emplace();
+  }
+  result.begun = true;
+  result.records = gather_after(p, info, *made);
+  result.states_made = made->states;
+  result.pictures_made = made->pictures;
+  check_made(p, *made, result);
+  if (made->frames < static_cast<int>(p.jobs.size())) return stop_status();
+
+  if (p.options.video && p.renderer) {
+    std::optional<VideoUpdate> video =
+        update_video(p.paths, p.scene, result.records, p.frames, info.video, stop_asked);
+    if (!video) return stop_status();
+    result.video = video->record.file;
+    result.video_made = video->made;
+    info.video = std::move(video->record);
+    gather(p.paths, info, p.scene.time.frames);
+  }
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+ExitStatus produce(Production p, Progress& progress) {
+  const Stopwatch watch;
+  RunResult result;
+  result.run = p.paths.root();
+  result.frames = p.frames.last - p.frames.first + 1;
+  const auto tell = [&](const char* status, const std::string& reason) {
+    result.status = status;
+    result.reason = reason;
+    result.seconds = watch.seconds();
+    if (p.options.json) std::fputs(result_json(result).c_str(), stdout);
+  };
+  try {
+    const ExitStatus status = make_all(p, result, progress);
+    if (status == ExitStatus::done) {
+      tell("done", "");
+      progress.note(result_text(result));
+    } else {
+      const std::string line =
+          fmt::format("interrupted with {} of {} frames there; the same command goes on from there",
+                      result.records.size(), p.scene.time.frames);
+      tell("interrupted", line);
+      std::fprintf(stderr, "lagomorph: %s\n", line.c_str());
+    }
+    return status;
+  } catch (const std::exception& e) {
+    if (result.begun) tell("failed", e.what());
+    throw;
+  }
+}
+
+int thread_count(const Options& options) {
+  if (options.threads > 0) return options.threads;
+  const unsigned cores = std::thread::hardware_concurrency();
+  return cores > 0 ? static_cast<int>(cores) : 1;
+}
+
+}  // namespace lagomorph::apps

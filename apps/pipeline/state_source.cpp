@@ -1,0 +1,54 @@
+#include "apps/pipeline/state_source.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "apps/file_io.h"
+#include "apps/pipeline/stopwatch.h"
+#include "apps/run/state_file.h"
+
+namespace lagomorph::apps {
+
+StateSource::StateSource(const SceneDesc& scene, const sim::Model& model, sim::Integrator& integrator,
+                         const RunPaths& paths)
+    : scene_(scene), model_(model), integrator_(integrator), paths_(paths) {}
+
+sim::State StateSource::read(int frame) const {
+  const std::filesystem::path file = paths_.state(frame);
+  return decode_state(read_file(file), file.string(), frame, scene_.time.fps, model_.mesh().vertex_count());
+}
+
+bool StateSource::simulate(int frame, sim::State& state, StateRecord& record) {
+  const Stopwatch watch;
+  if (frame == 0) {
+    state = model_.initial_state();
+  } else {
+    const bool at_hand = last_ && last_->frame == frame - 1;
+    state = at_hand ? std::move(*last_) : read(frame - 1);
+    record.report = sim::advance_frame(model_, integrator_, scene_.time, scene_.solver, state);
+    if (!sim::is_good(record.report.status)) {
+      failure_ = fmt::format("frame {}: {}", frame, record.report.reason);
+      return false;
+    }
+  }
+  record.time = state.t;
+  record.energy = model_.energies_of(state);
+  record.mass = model_.total_mass();
+  record.momentum = model_.momentum(state);
+  record.seconds = watch.seconds();
+  return true;
+}
+
+std::optional<StateFrame> StateSource::next(const FrameJob& job) {
+  StateFrame frame{.job = job, .state = {}, .made = {}};
+  if (!job.simulate) {
+    frame.state = read(job.frame);
+  } else if (!simulate(job.frame, frame.state, frame.made.emplace())) {
+    return std::nullopt;
+  }
+  last_ = frame.state;
+  return frame;
+}
+
+}  // namespace lagomorph::apps
