@@ -59,6 +59,10 @@ inline TetMesh mesh(const std::string& name) {
   return read_tet_mesh(path(name), remarks);
 }
 
+inline bool has_model(const std::string& truth_name) {
+  return truth_name == "nh_lecture" || truth_name == "snh" || truth_name == "snh_log";
+}
+
 /// The truth's names of the energies to ours.
 inline std::string model_name(const std::string& truth_name) {
   if (truth_name == "nh_lecture") return "neo_hookean";
