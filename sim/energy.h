@@ -14,8 +14,8 @@ public:
   virtual std::string_view name() const = 0;
   /// V(q) [J]; +inf where the energy is not defined (a lecture Neo-Hookean element with J <= 0).
   virtual double value(const VecX& q) const = 0;
-  /// Size of the numbers that value(q) is summed from: rounding leaves it uncertain by some 1e-16 of this.
-  /// [J]
+  /// Size of the numbers that value(q) is summed from, where they cancel: rounding leaves it uncertain by
+  /// some 1e-16 of this and of |value(q)|. [J]
   virtual double value_scale(const VecX& q) const = 0;
   /// g += scale · ∂V/∂q [N].
   virtual void add_gradient(const VecX& q, double scale, VecX& g) const = 0;

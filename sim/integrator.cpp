@@ -87,8 +87,8 @@ bool advance(const Model& model, Integrator& integrator, const SolverSettings& s
   report.reason = "frame " + std::to_string(state.frame + 1) + ": a step of " + short_number(h) +
                   " s at t = " + short_number(state.t) + " s ended " + std::string(to_string(step.status)) +
                   " after " + std::to_string(step.newton_iterations) + " Newton iterations with residual " +
-                  short_number(step.residual) + " (tolerance " + short_number(solver.tolerance) + "), halved " +
-                  std::to_string(depth) + " times";
+                  short_number(step.residual) + " (tolerance " + short_number(solver.tolerance) +
+                  "), halved " + std::to_string(depth) + " times";
   return false;
 }
 

@@ -61,29 +61,30 @@ private:
     return status == FactorStatus::ok;
   }
 
-  /// Solves A q̇1 = b and corrects q̇1 while its residual, as a force, is above the tolerance and falls.
+  /// Solves A q̇1 = b and corrects q̇1 by its residual, as a force, while that is above the tolerance and
+  /// falls.
   StepReport solve(const Model& model, const VecX& b, double h, VecX& qdot1) {
     double reference = model.pins().free_norm(model.gravity_force());
     if (reference == 0.0) reference = model.pins().free_norm(b) / h;
-    VecX correction;
+    const auto force_norm = [&](const VecX& r) { return model.pins().free_norm(r) / h; };
     linear_solver_.solve(b, qdot1);
-    double norm = 0.0;
-    for (int i = 0;; ++i) {
-      const VecX r = b - A_.times(qdot1);
-      const double before = norm;
-      norm = model.pins().free_norm(r) / h;
-      const bool falls = i == 0 || norm < 0.5 * before;
-      if (!std::isfinite(norm) || norm <= tolerance_ * reference || !falls || i == kMaxRefinements) break;
+    VecX r = b - A_.times(qdot1), correction;
+    double norm = force_norm(r);
+    for (int i = 0; i < kMaxRefinements && norm > tolerance_ * reference; ++i) {
       linear_solver_.solve(r, correction);
-      qdot1 += correction;
+      const VecX refined = qdot1 + correction;
+      r = b - A_.times(refined);
+      const double refined_norm = force_norm(r);
+      if (!(refined_norm < norm)) break;
+      qdot1 = refined;
+      norm = refined_norm;
     }
     StepReport report{StepStatus::converged, 1, reference > 0.0 ? norm / reference : 0.0, h};
     if (!std::isfinite(norm)) {
       report.status = StepStatus::not_finite;
     } else if (norm > tolerance_ * reference) {
-      const double floor = model.pins().free_norm(A_.rounding_of_times(qdot1)) / h;
-      report.status =
-          norm <= kNearRoundingFloor * floor ? StepStatus::rounding_floor : StepStatus::not_converged;
+      const bool at_floor = norm <= kNearRoundingFloor * force_norm(A_.rounding_of_times(qdot1));
+      report.status = at_floor ? StepStatus::rounding_floor : StepStatus::not_converged;
     }
     return report;
   }

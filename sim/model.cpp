@@ -23,7 +23,8 @@ void require(bool ok, const std::string& message) {
 bool is_positive(double value) { return value > 0.0 && std::isfinite(value); }
 
 void check_settings(const BodySettings& body, const std::string& where) {
-  require(is_positive(body.density), where + ": density = " + short_number(body.density) + " must be > 0 kg/m^3");
+  require(is_positive(body.density),
+          where + ": density = " + short_number(body.density) + " must be > 0 kg/m^3");
   require(is_positive(body.scale), where + ": scale = " + short_number(body.scale) + " must be > 0");
   require(body.rotate.allFinite(), where + ": rotate must be finite");
   require(body.translate.allFinite(), where + ": translate must be finite");
@@ -36,8 +37,8 @@ void check_volumes(const TetMesh& mesh, const std::string& where) {
   const VecX X = Eigen::Map<const VecX>(mesh.X.data(), mesh.X.size());
   for (std::size_t j = 0; j < mesh.tets.size(); ++j) {
     const double volume = tet_volume(gather_corners(X, mesh.tets[j]));
-    require(std::isnormal(volume) && volume > 0.0,
-            where + ": tet " + std::to_string(j) + " has volume " + short_number(volume) + " m^3; it must be > 0");
+    require(std::isnormal(volume) && volume > 0.0, where + ": tet " + std::to_string(j) + " has volume " +
+                                                       short_number(volume) + " m^3; it must be > 0");
   }
 }
 

@@ -62,8 +62,9 @@ Newton::Point Newton::evaluate(const Model& model, const IncrementalPotential& p
   const VecX x = position_of_V(phi, p.q);
   VecX forces = VecX::Zero(x.size());
   for (const auto& term : model.energies()) {
-    p.value += term->value(x) / phi.a;
-    p.value_scale += term->value_scale(x) / phi.a;
+    const double value = term->value(x);
+    p.value += value / phi.a;
+    p.value_scale += (std::abs(value) + term->value_scale(x)) / phi.a;
     term->add_gradient(x, 1.0, forces);
   }
   if (phi.f.size() != 0) {

@@ -117,9 +117,13 @@ TYPED_TEST(Terms, ScaleAndAddToWhatIsThere) {
   EXPECT_LT((H2.to_sparse() - 5.0 * H.to_sparse()).norm(), 1e-13 * (1.0 + H.to_sparse().norm()));
 }
 
-TYPED_TEST(Terms, ValueScaleBoundsTheValue) {
-  EXPECT_GE(this->term->value_scale(this->q), std::abs(this->term->value(this->q)));
-  EXPECT_GT(this->term->value_scale(rest(this->mesh)), 0.0);
+/// A last digit in each coordinate moves the value by no more than some 1e-15 of its scale.
+TYPED_TEST(Terms, ValueScaleIsTheSizeOfItsRounding) {
+  const double rounding = 1e-15 * (this->term->value_scale(this->q) + std::abs(this->term->value(this->q)));
+  EXPECT_GT(rounding, 0.0);
+  VecX nudged = this->q;
+  for (double& x : nudged) x = std::nextafter(x, 2.0);
+  EXPECT_LT(std::abs(this->term->value(nudged) - this->term->value(this->q)), 10.0 * rounding);
 }
 
 /// The lecture's formulas as they stand, with E_j as a matrix: V = Σ vol ψ, f = -Σ E_jᵀ vol B_jᵀ vec(P), K =
