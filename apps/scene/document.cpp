@@ -13,6 +13,20 @@
 namespace lagomorph::apps {
 namespace {
 
+constexpr int deepest = 100;  // levels of a dotted key; a scene has 6
+
+/// The parser makes a table of each part of a dotted key, and runs out of stack when there are very many.
+void check_depth(std::string_view text, const std::string& origin) {
+  int line = 1, dots = 0;
+  for (const char c : text) {
+    if (c == '.') ++dots;
+    if (c == '\n' || c == ',' || c == '=' || c == '[' || c == '{') dots = 0;
+    if (c == '\n') ++line;
+    if (dots > 10 * deepest)
+      wrong_input(fmt::format("{}:{}: a key of more parts than any scene has", origin, line));
+  }
+}
+
 /// A table of the one key `v`, whose nodes have `source` for their place.
 toml::table only_v(const std::string& value, const std::string& source) {
   return toml::parse("v = " + value, source);
@@ -20,6 +34,7 @@ toml::table only_v(const std::string& value, const std::string& source) {
 
 /// VALUE of an override as a node under `v`: TOML, or the string itself when it is none.
 toml::table parse_value(const std::string& value, const std::string& source) {
+  check_depth(value, source);
   try {
     toml::table parsed = only_v(value, source);
     if (parsed.size() == 1) return parsed;  // a line break in it could begin another key
@@ -45,6 +60,7 @@ std::vector<std::string> segments_of(const std::string& path, const std::string&
       segments.back() += c;
     }
   }
+  if (segments.size() > deepest) wrong_input(source + ": a key of more parts than any scene has");
   for (const std::string& s : segments) {
     if (s.empty()) wrong_input(fmt::format("{}: the key '{}' has an empty part", source, path));
   }
@@ -126,6 +142,7 @@ private:
 
 Document::Document(std::string_view text, std::string origin, std::span<const std::string> overrides)
     : origin_(std::move(origin)) {
+  check_depth(text, origin_);
   try {
     root_ = toml::parse(text, origin_);
   } catch (const toml::parse_error& error) {
