@@ -145,8 +145,9 @@ const CommandRow& find_command(const std::string& name) {
                             joined(names)));
   }
   const std::string near = nearest(name, names);
-  wrong_input(fmt::format("unknown command '{}'; {}commands are {}", name,
-                          near.empty() ? "" : "did you mean '" + near + "'? ", joined(names)));
+  wrong_input(fmt::format("unknown command '{}'; {} are {}", name,
+                          near.empty() ? "commands" : fmt::format("did you mean '{}'? Commands", near),
+                          joined(names)));
 }
 
 [[noreturn]] void unknown_option(const CommandRow& command, const std::string& argument) {
@@ -234,8 +235,7 @@ FrameRange parse_frames(const std::string& text) {
 std::string program_help() {
   std::string text =
       "Usage: lagomorph COMMAND [options]\n"
-      "Animates hyperelastic tetrahedral meshes, from a scene file to pictures, on a machine without a "
-      "display.\n"
+      "Animates hyperelastic tetrahedral meshes, from a scene file to pictures. Needs no display.\n"
       "\nCommands:\n";
   for (const CommandRow& row : commands) {
     text += fmt::format("  {:<21}{}\n", fmt::format("{} {}", row.name, row.input), row.meaning);
@@ -265,8 +265,9 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
   for (const OptionRow& row : option_rows) {
     if (!knows(command, row)) continue;
     Given& g = *given.emplace_back(std::make_unique<Given>(Given{&row, {}, nullptr}));
-    g.option = row.value == nullptr ? parser.add_flag(row.flags)
-                                    : parser.add_option(row.flags, g.values)->expected(1)->take_all();
+    g.option = row.value == nullptr
+                   ? parser.add_flag(row.flags)->disable_flag_override()
+                   : parser.add_option(row.flags, g.values)->expected(1)->take_all()->allow_extra_args(false);
   }
   try {
     // CLI11 takes them last first.
