@@ -24,7 +24,10 @@ public:
     const std::string outer =
         std::exchange(path_, fmt::format("{}{}{}.", path_, about.name, list ? ".N" : ""));
     text += fmt::format("| **`{}`** | {} | | | {} |\n", path_.substr(0, path_.size() - 1),
-                        elements.size() == 0 ? "none" : "", escaped(about.meaning));
+                        about.required         ? "required"
+                        : elements.size() == 0 ? "none"
+                                               : "",
+                        escaped(about.meaning));
     if (elements.size() == 0) elements.resize(1);
     elements.visit(0, *this);
     path_ = outer;

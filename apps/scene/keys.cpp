@@ -307,7 +307,7 @@ void visit_render(render::RenderSettings& r, KeyVisitor& v) {
   v.key({.name = "png_compression", .bounds = between(0, 12), .meaning = "zlib level of the pictures"},
         &r.png_compression);
   v.key({.name = "channels",
-         .meaning = "written beside the picture, to RUN/aov/<channel>/",
+         .meaning = "written beside the picture, to RUN/aov/NAME/",
          .choices = render::channel_names},
         &r.channels);
   v.one({.name = "raster", .meaning = "of the raster back end"}, r.raster, visit_raster);
@@ -390,13 +390,14 @@ void visit_scene(SceneDesc& s, KeyVisitor& v) {
         &s.name);
   v.one({.name = "time", .meaning = "frames and steps"}, s.time, visit_time);
   v.one({.name = "solver", .meaning = "how a step is solved"}, s.solver, visit_solver);
-  v.list({.name = "body", .meaning = "what moves; at least one"}, s.body, visit_body);
+  v.list({.name = "body", .meaning = "what moves; at least one", .required = true}, s.body, visit_body);
   v.one({.name = "camera", .meaning = "where the pictures are taken from"}, s.camera, visit_camera);
   v.one({.name = "render", .meaning = "the pictures"}, s.render, visit_render);
   v.one({.name = "ground", .meaning = "a floor that receives shadows and fades into the background"},
         s.ground, visit_ground);
-  v.list({.name = "light", .meaning = "a rectangle that shines; one where the scene names none"}, s.light,
-         visit_light);
+  v.list({.name = "light",
+          .meaning = "a rectangle that shines; one where the scene names none, none with `light = []`"},
+         s.light, visit_light);
   v.one({.name = "sky", .meaning = "light from all around"}, s.sky, visit_sky);
   v.one({.name = "background", .meaning = "what the camera sees where nothing is"}, s.background,
         visit_background);

@@ -66,6 +66,7 @@ struct Table {
   const char* name = "";
   const char* meaning = "";
   bool is_inline = false;  // how it is written; both are read
+  bool required = false;   // a scene has at least one
 };
 
 /// Where a key's value stands in the description.

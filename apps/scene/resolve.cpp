@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -98,7 +99,8 @@ void check_looks(const SceneDesc& scene, const Places& places) {
 void check_file(const SceneDesc& scene, const std::string& name, const std::string& key,
                 const std::vector<std::string>& extensions, const Places& places) {
   if (name.empty()) return;
-  const std::string extension = fs::path(name).extension().string();
+  std::string extension = fs::path(name).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
     wrong_input(fmt::format("{}{} = '{}' has an unknown extension; known are {}", places.of(key), key, name,
                             joined(extensions)));

@@ -134,6 +134,9 @@ TEST_F(Resolved, FilesThatAreNotThereAreToldWithTheirPlace) {
             ":2:8: body.0.mesh = 'b.stp' has an unknown extension; known are .m");
   std::filesystem::create_directory(directory.path() / "folder.msh");
   EXPECT_EQ(error_of("folder.msh"), ":2:8: body.0.mesh = 'folder.msh' is not a file");
+  EXPECT_EQ(error_of("b.node"), ":2:8: body.0.mesh = 'b.node': there is no such file");
+  directory.write("b.node", "");
+  EXPECT_EQ(error_of("b.node"), ":2:8: body.0.mesh = 'b.node' needs 'b.ele' beside it: there is no such file");
 }
 
 }  // namespace
