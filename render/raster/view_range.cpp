@@ -55,8 +55,8 @@ PixelRectangle seen_rectangle(const Camera& camera, std::span<const std::vector<
                               const RenderScene& scene) {
   const ViewRange range = view_range(camera, positions, scene);
   const Vec2 size(static_cast<float>(camera.width()), static_cast<float>(camera.height()));
-  Vec2 low = size;
-  Vec2 high = Vec2::Zero();
+  Vec2 low = Vec2::Constant(std::numeric_limits<float>::max());
+  Vec2 high = -low;
   for_each_point(positions, scene, [&](const Vec3& p) {
     if (!camera.is_orthographic() && camera.depth(p) < range.near) {  // its triangles may be anywhere
       low = Vec2::Zero();
