@@ -311,7 +311,7 @@ void RasterRenderer::draw_background() const {
   glDisable(GL_BLEND);
 }
 
-/// What is seen over the background, lit once a pixel and surface.
+/// What is seen over the background, lit once a pixel and surface: layers add up, the first covers for all.
 void RasterRenderer::draw_layers() const {
   const Programs& programs = gl_->programs;
   gl_->targets->bind_color();

@@ -101,7 +101,8 @@ vec3 rectangle_reflection(Light light, vec3 x, vec3 n, vec3 v, float nv, Coat co
 const char* const shadow = R"(
 layout(binding = 0) uniform sampler2DArray shadow_maps;
 
-const vec2 r2_sequence = vec2(0.7548776662, 0.5698402910);  // [Roberts 2018]
+// Point k of n of a Fibonacci lattice on [-1, 1]^2.
+vec2 lattice(float k, float n) { return 2.0 * vec2((k + 0.5) / n, fract(0.5 + 0.6180339887 * k)) - 1.0; }
 
 struct Receiver {
   vec3 normal;       // in the light's frame
@@ -135,33 +136,31 @@ float light_visibility(int i, vec3 x, vec3 n, float depth, float footprint) {
   at.plane = dot(at.normal, q) + light.depth.w + 2.0 * footprint;
   vec2 half_size = vec2(light.right.w, light.up.w);
   vec2 texel = 1.0 / (size * light.map.xy);
-  vec2 start = fract(0.5 + quad_index() * r2_sequence);
-  vec2 stride = fract(4.0 * r2_sequence);
+  float first = quad_index();  // the quad's pixels take every fourth point each
 
   vec2 reach = half_size * max(light.depth.z - at.reciprocal, 0.0) + texel;
   vec2 low = (at.tangent - reach) * light.map.xy + light.map.zw;
   vec2 high = (at.tangent + reach) * light.map.xy + light.map.zw;
   bool inside = q.z > 0.0 && at.reciprocal < light.depth.z && all(lessThan(low, vec2(1.0))) &&
                 all(greaterThan(high, vec2(0.0)));
-  int taps = inside ? 16 : 0;
-  vec2 s = start;
+  const int search_taps = 16;
+  int taps = inside ? search_taps : 0;
   float count = 0.0;
   float sum = 0.0;
   for (int k = 0; k < taps; ++k) {
-    float b = blocker(i, light, at, at.tangent + (2.0 * s - 1.0) * reach, size);
+    vec2 s = lattice(4.0 * float(k) + first, 4.0 * float(search_taps));
+    float b = blocker(i, light, at, at.tangent + s * reach, size);
     count += b > 0.0 ? 1.0 : 0.0;
     sum += b;
-    s = fract(s + stride);
   }
   float tolerance = 10.0 * footprint;
   vec2 found = quad_sum(vec2(sum, count), depth, tolerance);
   taps = found.y > 0.0 ? int(counts.y) : 0;
   vec2 spread = max(half_size * (found.x / max(found.y, 1.0) - at.reciprocal), texel);
-  s = start;
   float blocked = 0.0;
   for (int k = 0; k < taps; ++k) {
-    blocked += blocker(i, light, at, at.tangent + (2.0 * s - 1.0) * spread, size) > 0.0 ? 1.0 : 0.0;
-    s = fract(s + stride);
+    vec2 s = lattice(4.0 * float(k) + first, 4.0 * counts.y);
+    blocked += blocker(i, light, at, at.tangent + s * spread, size) > 0.0 ? 1.0 : 0.0;
   }
   // Where the penumbra is hardly wider than a pixel, the quad's mean would only make blocks.
   vec2 shared_blocked = quad_sum(vec2(blocked, counts.y), depth, tolerance);

@@ -157,49 +157,49 @@ void main() {
 }
 )";
 
-// Lights one layer of the pixel, to be put over what is behind: colour times coverage, and coverage.
+// Lights one layer of the pixel and adds it to what is behind. The first layer makes room for all. Behind the
+// ground, only what its fading edge lets through is seen, instead of the background there.
 const char* const layer_fragment = R"(
 uniform int layer;
 out vec4 color;
 void main() {
+  vec3 on_ground;
+  float to_ground;
+  if (ground.w < 0.5 || !meet_ground(on_ground, to_ground)) to_ground = 1e30;
   Layers l = sort_samples();
-  float covered = 0.0;
+  float count = 0.0;
+  float before_ground = 0.0;  // of this layer's samples
+  float covered = 0.0;        // of all layers' before the ground
   float depth = 0.0;
   vec4 normals = vec4(0.0);
   uint id = 1u;
   for (int s = 0; s < SAMPLES; ++s) {
+    float before = l.samples[s].depth < to_ground ? 1.0 : 0.0;
+    if (l.layer[s] >= 0) covered += before;
     if (l.layer[s] != layer) continue;
-    covered += 1.0;
+    count += 1.0;
+    before_ground += before;
     depth += l.samples[s].depth;
     normals += l.samples[s].normals;
     id = l.samples[s].id;
   }
   vec3 origin, direction;
   pixel_ray(origin, direction);
-  bool there = covered > 0.0;
+  bool there = count > 0.0;
   Point p;
-  p.depth = there ? depth / covered : 1e9;  // unlike any neighbour's
+  p.depth = there ? depth / count : 1e9;  // unlike any neighbour's
   p.x = origin + (there ? p.depth : 1.0) * direction;
   p.footprint = pixel_footprint(there ? p.depth : 1.0);
   vec3 v = -normalize(direction);
-  p.normal = there ? direction_of(normals.xy / covered) : v;
-  p.flat_normal = there ? direction_of(normals.zw / covered) : v;
+  p.normal = there ? direction_of(normals.xy / count) : v;
+  p.flat_normal = there ? direction_of(normals.zw / count) : v;
   Surface surface = surfaces[id - 1u];
   vec3 lit = shade(p, v, surface, sky_seen(p.x, p.normal), radiance_from_below(p.x));
   if (surface.color.w > 0.5) lit = surface.color.rgb;
-
-  // Behind the ground only what its fading edge lets through is seen, instead of the background there.
-  covered /= float(SAMPLES);
-  if (ground.w > 0.5 && (origin.y - ground.x) * (p.x.y - ground.x) < 0.0) {
-    vec3 on_ground;
-    float to_ground;
-    if (meet_ground(on_ground, to_ground)) {
-      vec3 background_light = background_radiance(direction);
-      color = vec4(covered * ground_fade(on_ground) * (lit - background_light), 0.0);
-      return;
-    }
-  }
-  color = vec4(covered * lit, covered);
+  color.rgb = before_ground * lit;
+  if (before_ground < count)
+    color.rgb += (count - before_ground) * ground_fade(on_ground) * (lit - background_radiance(direction));
+  color = vec4(color.rgb, layer == 0 ? covered : 0.0) / float(SAMPLES);
 }
 )";
 

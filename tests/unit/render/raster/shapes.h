@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/renderer.h"
+#include "render/backends.h"
 
 /// Small scenes whose pictures are known.
 namespace lagomorph::render::raster {
@@ -80,6 +80,13 @@ inline RenderScene empty_scene() {
   return scene;
 }
 
+inline CameraSettings three_quarter() {
+  CameraSettings camera;
+  camera.position = Vec3(1.5F, 1.2F, 3.0F);
+  camera.look_at = Vec3(0.0F, 0.4F, 0.0F);
+  return camera;
+}
+
 inline RenderSettings small_settings(int width = 96, int height = 64) {
   RenderSettings settings;
   settings.width = width;
@@ -90,7 +97,7 @@ inline RenderSettings small_settings(int width = 96, int height = 64) {
 }
 
 inline Image draw(const RenderScene& scene, const CameraSettings& camera, const RenderSettings& settings) {
-  const auto renderer = make_renderer(settings, 2);
+  const auto renderer = make_raster_renderer(settings, 2);
   renderer->set_scene(scene);
   return renderer->render(Camera(camera, settings.width, settings.height), {});
 }

@@ -1,0 +1,159 @@
+#include <cmath>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/render/raster/shapes.h"
+
+namespace lagomorph::render::raster {
+namespace {
+
+CameraSettings from_above() {
+  CameraSettings camera;
+  camera.position = Vec3(0.0F, 6.0F, 0.0F);
+  camera.look_at = Vec3::Zero();
+  camera.up = Vec3(0.0F, 0.0F, -1.0F);
+  camera.fov = 40.0F;
+  return camera;
+}
+
+/// A square of 1 m at height 1 under a square light at height 4, seen from a corner between them and the
+/// ground; its umbra and penumbra follow from similar triangles.
+RenderScene square_over_ground(float light_size) {
+  RenderScene scene = empty_scene();
+  scene.ground.enabled = true;
+  AreaLight light;
+  light.position = Vec3(0.0F, 4.0F, 0.0F);
+  light.look_at = Vec3::Zero();
+  light.size = Vec2(light_size, light_size);
+  light.radiance = 20.0F / (light_size * light_size);
+  scene.lights = {light};
+  scene.meshes = {rectangle(Vec3(0.0F, 1.0F, 0.0F), 0.5F * Vec3::UnitZ(), 0.5F * Vec3::UnitX())};
+  return scene;
+}
+
+/// Part of the light that reaches the ground along +x at z = 0, by the ratio to the same without the square.
+/// The camera is beside, below the square.
+std::vector<float> visibility_along_x(const RenderScene& scene, int count, float step) {
+  CameraSettings camera;
+  camera.position = Vec3(0.0F, 0.9F, 6.0F);
+  camera.look_at = Vec3(0.5F, 0.0F, 0.0F);
+  camera.fov = 20.0F;
+  RenderSettings settings = small_settings(640, 320);
+  settings.raster.shadow_map = 1024;
+  const Image with = draw(scene, camera, settings);
+  RenderScene bare = scene;
+  bare.meshes.clear();
+  const Image without = draw(bare, camera, settings);
+  const Camera view(camera, 640, 320);
+  std::vector<float> visibility;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 p(static_cast<float>(i) * step, 0.0F, 0.0F);
+    visibility.push_back(color_of(with, view, p)[0] / color_of(without, view, p)[0]);
+  }
+  return visibility;
+}
+
+TEST(RasterShadow, FallsWhereTheLightIsHidden) {
+  // The edge at x = 0.5, y = 1 throws its shadow to x = 0.5 * 4 / 3.
+  const std::vector<float> v = visibility_along_x(square_over_ground(0.02F), 101, 0.01F);
+  for (int i = 0; i <= 100; ++i) {
+    const float x = 0.01F * static_cast<float>(i);
+    if (x < 0.64F) {
+      EXPECT_LT(v[static_cast<std::size_t>(i)], 0.01F) << x;
+    } else if (x > 0.70F) {
+      EXPECT_GT(v[static_cast<std::size_t>(i)], 0.99F) << x;
+    }
+  }
+}
+
+TEST(RasterShadow, ALightOfSizeHasItsPenumbra) {
+  // The light's edges at +-0.6 throw the edge to 2/3 -+ 0.2: visibility is linear between, since the light is
+  // a rectangle with sides along the edge.
+  const std::vector<float> v = visibility_along_x(square_over_ground(1.2F), 121, 0.01F);
+  for (int i = 0; i <= 120; ++i) {
+    const float x = 0.01F * static_cast<float>(i);
+    const float expected = std::clamp((x - 2.0F / 3.0F + 0.2F) / 0.4F, 0.0F, 1.0F);
+    EXPECT_NEAR(v[static_cast<std::size_t>(i)], expected, 0.04F) << x;
+  }
+}
+
+TEST(RasterShadow, StandsAtTheFootOfABody) {
+  RenderScene scene = square_over_ground(0.05F);
+  scene.meshes = {box(Vec3(-0.5F, 0.0F, -0.5F), Vec3(0.5F, 1.0F, 0.5F))};
+  scene.lights[0].position =
+      Vec3(-3.0F, 3.0F, 0.0F);  // 45 degrees: the shadow reaches from the foot to x = 1.5
+  scene.lights[0].look_at = Vec3::Zero();
+  const RenderSettings settings = small_settings(400, 400);
+  const Camera camera(from_above(), 400, 400);
+  const Image image = draw(scene, from_above(), settings);
+  // From above, the box's top hides the ground up to x = 0.6.
+  EXPECT_LT(color_of(image, camera, Vec3(0.61F, 0.0F, 0.0F))[0], 0.01F);
+  EXPECT_GT(color_of(image, camera, Vec3(0.0F, 0.0F, 0.65F))[0], 0.05F);
+  EXPECT_LT(color_of(image, camera, Vec3(2.1F, 0.0F, 0.0F))[0], 0.01F);
+  EXPECT_GT(color_of(image, camera, Vec3(2.35F, 0.0F, 0.0F))[0], 0.05F);
+}
+
+TEST(RasterShadow, LeavesNoLineOfLightAtTheFoot) {
+  // Seen from the shadow's side, the ground is dark from the wall on.
+  RenderScene scene = square_over_ground(0.05F);
+  scene.meshes = {box(Vec3(-0.5F, 0.0F, -0.5F), Vec3(0.5F, 1.0F, 0.5F))};
+  scene.lights[0].position = Vec3(-3.0F, 3.0F, 0.0F);
+  scene.lights[0].look_at = Vec3::Zero();
+  CameraSettings settings;
+  settings.position = Vec3(2.5F, 0.6F, 0.0F);
+  settings.look_at = Vec3(0.5F, 0.0F, 0.0F);
+  settings.fov = 6.0F;
+  const Image image = draw(scene, settings, small_settings(200, 200));
+  for (int y = 0; y < 200; ++y) EXPECT_LT(color_at(image, 100, y)[0], 0.01F) << y;
+}
+
+TEST(RasterShadow, ABodyInsideOutCastsTheSame) {
+  RenderScene scene = square_over_ground(0.3F);
+  scene.meshes = {sphere(Vec3(0.0F, 1.0F, 0.0F), 0.5F, 24)};
+  const std::vector<float> expected = visibility_along_x(scene, 100, 0.01F);
+  for (Triangle& t : scene.meshes[0].triangles) std::swap(t[1], t[2]);
+  const std::vector<float> found = visibility_along_x(scene, 100, 0.01F);
+  EXPECT_LT(expected[0], 0.01F);
+  EXPECT_GT(expected[99], 0.9F);
+  for (std::size_t i = 0; i < 100; ++i) EXPECT_NEAR(found[i], expected[i], 0.05F) << i;
+}
+
+TEST(RasterShadow, EachLightHasItsOwn) {
+  RenderScene scene = square_over_ground(0.05F);
+  AreaLight side = scene.lights[0];
+  side.position = Vec3(4.0F, 4.0F, 0.0F);
+  side.radiance *= 2.0F;
+  scene.lights.push_back(side);
+  const std::vector<float> v = visibility_along_x(scene, 1, 0.1F);
+  // At the origin only the light at the side shines: (0, 1/2) from it meets the square's plane at x = 1.
+  const auto strength = [](const Vec3& light) {  // cos cos / d^2 of a light that looks at the origin
+    return light.normalized().y() / light.squaredNorm();
+  };
+  const float from_side = 2.0F * strength(side.position);
+  EXPECT_NEAR(v[0], from_side / (from_side + strength(Vec3(0.0F, 4.0F, 0.0F))), 0.01F);
+}
+
+TEST(RasterShadow, TheSkyIsDimmedUnderABody) {
+  RenderScene scene = empty_scene();
+  scene.ground.enabled = true;
+  scene.sky.strength = 1.0F;
+  scene.meshes = {sphere(Vec3(0.0F, 0.5F, 0.0F), 0.5F, 24)};
+  scene.meshes[0].material = scene.ground.material =
+      matte(0.02F);  // so that hardly any light goes between them
+  CameraSettings camera;
+  camera.position = Vec3(0.0F, 0.6F, 4.0F);
+  camera.look_at = Vec3(0.0F, 0.3F, 0.0F);
+  const Image image = draw(scene, camera, small_settings(320, 200));
+  const Camera view(camera, 320, 200);
+  const float open = color_of(image, view, Vec3(-2.0F, 0.0F, 0.0F))[0];
+  // A sphere that touches the ground takes sin^2 of its half angle times the cosine of its direction: beside
+  // it at distance d, r^2 / (r^2 + d^2) * r / sqrt(r^2 + d^2).
+  for (const float d : {0.55F, 0.8F, 1.2F}) {
+    const float taken = 0.25F / (0.25F + d * d) * 0.5F / std::sqrt(0.25F + d * d);
+    EXPECT_NEAR(color_of(image, view, Vec3(d, 0.0F, 0.0F))[0] / open, 1.0F - taken, 0.08F) << d;
+  }
+}
+
+}  // namespace
+}  // namespace lagomorph::render::raster
