@@ -1,7 +1,5 @@
-#include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "apps/cli/command_line.h"
+#include "apps/cli/print.h"
 #include "apps/one_line.h"
 #include "render/error.h"
 #include "sim/error.h"
@@ -24,25 +23,11 @@ int fail(ExitStatus status, std::string_view what) {
   return static_cast<int>(status);
 }
 
-/// What is still buffered goes out now, where its failure can be told. A reader that left (`| head`) is none.
-void flush_stdout() {
-  errno = 0;
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-  if (errno == EPIPE) return;
-  throw lagomorph::apps::Error(ExitStatus::machine,
-                               std::string("standard output cannot be written: ") + std::strerror(errno));
-}
-
 int lagomorph_main(const std::vector<std::string>& arguments) {
-  if (arguments.empty()) std::fputs(lagomorph::apps::program_help().c_str(), stdout);
+  if (arguments.empty()) lagomorph::apps::print(lagomorph::apps::program_help());
   const lagomorph::apps::CommandLine line = lagomorph::apps::parse_command_line(arguments);
-  ExitStatus status = ExitStatus::done;
-  if (line.text.empty()) {
-    status = line.command(line.options);
-  } else {
-    std::fputs(line.text.c_str(), stdout);
-  }
-  flush_stdout();
+  const ExitStatus status = line.text.empty() ? line.command(line.options) : ExitStatus::done;
+  lagomorph::apps::print(line.text);  // and what a command left in the buffer, where a failure can be told
   return static_cast<int>(status);
 }
 

@@ -19,7 +19,8 @@ public:
   /// A fact: `text` after its label for people, `value` under `key` in JSON.
   void add(const std::string& label, const std::string& text, const std::string& key,
            nlohmann::ordered_json value);
-  /// A line for people alone: what JSON has elsewhere, or more of the fact before.
+  /// A fact for JSON alone, and a line for people alone: what the other has elsewhere.
+  void add_json(const std::string& key, nlohmann::ordered_json value) { json_[key] = std::move(value); }
   void add_text(const std::string& label, const std::string& text) { rows_.emplace_back(label, text); }
 
   std::string text() const;

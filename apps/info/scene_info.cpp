@@ -1,0 +1,111 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "apps/info/info.h"
+#include "apps/pipeline/build_scene.h"
+#include "apps/run/disk_space.h"
+#include "apps/scene/scene.h"
+#include "sim/integrator.h"
+
+namespace lagomorph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+int pinned_of(const sim::Model& model, const sim::Range& vertices) {
+  const std::vector<int>& pinned = model.pins().vertices();  // ascending
+  return static_cast<int>(std::lower_bound(pinned.begin(), pinned.end(), vertices.end) -
+                          std::lower_bound(pinned.begin(), pinned.end(), vertices.begin));
+}
+
+void add_bodies(Report& report, const SceneDesc& scene, const sim::Model& model,
+                const std::vector<sim::Surface>& surfaces) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < scene.body.size(); ++i) {
+    const BodyDesc& described = scene.body[i];
+    const sim::Body& body = model.mesh().bodies[i];
+    const int pinned = pinned_of(model, body.vertices);
+    const std::size_t triangles = surfaces[i].triangles().size();
+    const std::string drawn = described.surface.mesh.empty() ? "their boundary" : described.surface.mesh;
+    report.add_text("body " + body.name,
+                    fmt::format("{} tets, {} vertices ({} pinned) of {}", count_text(body.tets.size()),
+                                count_text(body.vertices.size()), count_text(pinned), described.mesh));
+    report.add_text(
+        "", fmt::format("{}, {} kg/m^3, drawn by {} triangles of {}", described.physics.material.model,
+                        described.physics.density, count_text(static_cast<long long>(triangles)), drawn));
+    all.push_back({{"name", body.name},
+                   {"mesh", described.mesh},
+                   {"vertices", body.vertices.size()},
+                   {"tets", body.tets.size()},
+                   {"pinned", pinned},
+                   {"model", described.physics.material.model},
+                   {"density", described.physics.density},
+                   {"surface", described.surface.mesh},
+                   {"triangles", triangles}});
+  }
+  report.add_json("bodies", all);
+}
+
+void add_time(Report& report, const sim::TimeSettings& time) {
+  const double seconds = (time.frames - 1) / time.fps;
+  report.add(
+      "time",
+      fmt::format("{} frames at {} 1/s, {} s; {}, {} step{} a frame", count_text(time.frames), time.fps,
+                  number_text(seconds), time.integrator, time.substeps, time.substeps == 1 ? "" : "s"),
+      "time",
+      {{"frames", time.frames},
+       {"fps", time.fps},
+       {"seconds", seconds},
+       {"integrator", time.integrator},
+       {"substeps", time.substeps}});
+}
+
+void add_pictures(Report& report, const SceneDesc& scene) {
+  const render::CameraSettings& camera = scene.camera;
+  const std::string projection = camera.orthographic
+                                     ? fmt::format("orthographic, {} m high", *camera.orthographic)
+                                     : fmt::format("perspective, {} degrees high", camera.fov);
+  report.add_text("camera",
+                  fmt::format("{}, from {} to {}", projection, point_text(camera.position.cast<double>()),
+                              point_text(camera.look_at.cast<double>())));
+  const render::RenderSettings& r = scene.render;
+  std::string how = fmt::format("{} x {} by {}", r.width, r.height, r.backend);
+  if (r.backend == "path") how += fmt::format(", {} paths a pixel", r.samples);
+  for (const std::string& channel : r.channels) how += ", and " + channel;
+  report.add("pictures", how, "pictures",
+             {{"width", r.width}, {"height", r.height}, {"backend", r.backend}, {"channels", r.channels}});
+}
+
+void add_disk(Report& report, const SceneDesc& scene, const sim::Model& model) {
+  std::vector<FrameJob> jobs;
+  for (int frame = 0; frame < scene.time.frames; ++frame) {
+    jobs.push_back({.frame = frame, .simulate = true, .draw = true});
+  }
+  const int levels = 1 + sim::make_integrator(scene.time, scene.solver, model)->history_levels();
+  const std::size_t bytes = expected_size(jobs, model.mesh().vertex_count(), levels, scene.render).estimate;
+  report.add("on disk", "about " + size_text(bytes), "expected_bytes", bytes);
+}
+
+}  // namespace
+
+Report scene_info(const fs::path& file, const std::vector<std::string>& overrides) {
+  const SceneDesc scene = load_scene(file, overrides);
+  Progress quiet(true);
+  const sim::Model model = build_model(scene, quiet);
+  const std::vector<sim::Surface> surfaces = build_surfaces(scene, model, quiet);
+
+  Report report(fmt::format("{}: scene '{}'", file.string(), scene.name), "scene", file.string());
+  report.add_json("name", scene.name);
+  add_bodies(report, scene, model, surfaces);
+  add_box(report, model.mesh().X.colwise().minCoeff(), model.mesh().X.colwise().maxCoeff());
+  report.add("mass", number_text(model.total_mass()) + " kg", "mass", model.total_mass());
+  report.add("unknowns", count_text(model.pins().free_dofs()) + " free coordinates", "unknowns",
+             model.pins().free_dofs());
+  add_time(report, scene.time);
+  add_pictures(report, scene);
+  add_disk(report, scene, model);
+  return report;
+}
+
+}  // namespace lagomorph::apps
