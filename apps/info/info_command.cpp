@@ -7,9 +7,11 @@
 #include "apps/commands.h"
 #include "apps/info/info.h"
 #include "apps/nearest.h"
+#include "apps/pipeline/production.h"
 #include "apps/scene/find_scene.h"
 #include "apps/scene/scene.h"
 #include "sim/mesh_io.h"
+#include "sim/parallel.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -65,6 +67,7 @@ ExitStatus info_command(const Options& options) {
     print(scene_key_table_markdown());
     return ExitStatus::done;
   }
+  const sim::ThreadLimit limit(thread_count(options));
   const Report report = report_of(find_scene(options.inputs.at(0)), options);
   print(options.json ? report.json() : report.text());
   return ExitStatus::done;

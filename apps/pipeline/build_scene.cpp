@@ -8,6 +8,7 @@
 
 #include "sim/error.h"
 #include "sim/mesh_io.h"
+#include "sim/pins.h"
 #include "sim/placement.h"
 
 namespace lagomorph::apps {
@@ -55,6 +56,9 @@ sim::Model build_model(const SceneDesc& scene, Progress& progress) {
     progress.note(fmt::format("{}: {} vertices, {} tets, {} as placed", file.string(), mesh.vertex_count(),
                               mesh.tet_count(), size_of(placed)));
     note_all(progress, file.string(), remarks);
+    for (std::size_t i = 0; i < body.physics.pin.size(); ++i) {  // told here with their place in the scene
+      sim::select_vertices(placed, body.physics.pin[i], body.pin_places[i]);
+    }
     bodies.push_back({std::move(mesh), body.physics});
   }
   return {std::move(bodies), scene.time.gravity};

@@ -27,7 +27,7 @@ void visit_time(sim::TimeSettings& t, KeyVisitor& v) {
          .meaning = "frames a second; frame k is at t = k / fps"},
         &t.fps);
   v.key({.name = "frames",
-         .bounds = at_least(1),
+         .bounds = between(1, 1e7),
          .part = Part::none,
          .meaning = "pictures 0 .. frames - 1; frame 0 is the initial state"},
         &t.frames);

@@ -139,7 +139,9 @@ void resolve_scene(SceneDesc& scene, const Places& places, const std::string& st
     if (body.mesh.empty()) wrong_input(fmt::format("{}{}.mesh is empty", places.of(path + ".mesh"), path));
     resolve_material(body.physics.material, path + ".material", places);
     for (std::size_t j = 0; j < body.physics.pin.size(); ++j) {
-      check_pin(body.physics.pin[j], fmt::format("{}.pin.{}", path, j), places);
+      const std::string pin = fmt::format("{}.pin.{}", path, j);
+      check_pin(body.physics.pin[j], pin, places);
+      body.pin_places.push_back(places.of(pin) + pin);
     }
   }
   check_camera(scene.camera, places);

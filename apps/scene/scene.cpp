@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "apps/error.h"
+#include "apps/nearest.h"
+#include "apps/scene/find_scene.h"
 #include "apps/scene/read.h"
 
 namespace lagomorph::apps {
@@ -18,6 +20,12 @@ namespace fs = std::filesystem;
 constexpr std::streamsize most_bytes = std::streamsize{1} << 24;
 
 std::string read_text(const fs::path& file) {
+  std::error_code none;
+  if (!fs::exists(file, none)) {
+    const std::string own = joined(own_scenes());
+    wrong_input(fmt::format("{}: there is no such scene{}", file.string(),
+                            own.empty() ? "" : "; the program's own are " + own));
+  }
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   std::string text;

@@ -46,8 +46,13 @@ TEST(Program, TellsWrongUsageAndInputByStatus2) {
   const tests::TemporaryDirectory directory;
   expect_error(run_program({"run"}, directory), 2,
                "run needs a SCENE.toml: lagomorph run SCENE.toml [options]");
-  expect_error(run_program({"run", "no_such.toml"}, directory), 2,
-               "no_such.toml: the scene cannot be read: No such file or directory");
+  const Ended missing = run_program({"run", "no_such.toml"}, directory);
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_EQ(
+      missing.err.find("lagomorph: error: no_such.toml: there is no such scene; the program's own are bunny, "
+                       "cantilever"),
+      0U)
+      << missing.err;
   const std::string scene = directory.write("a.toml", "[[body]]\nmesh = 'a.msh'\nyuong = 3\n").string();
   const std::string message = scene + ":3:1: unknown key 'yuong'; did you mean 'young' of [body.material]?";
   const std::string out = (directory.path() / "out").string();

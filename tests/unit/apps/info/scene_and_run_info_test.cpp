@@ -77,9 +77,21 @@ TEST_F(SmallScene, IsTold) {
   EXPECT_NEAR(nlohmann::json::parse(scene_info(scene, heavier).json())["mass"].get<double>(), 200.0, 1e-10);
 }
 
-TEST_F(SmallScene, WhoseModelCannotBeMadeIsAnError) {
-  EXPECT_THROW(scene_info(scene, std::vector<std::string>{"body.0.pin.0={ vertices = [4] }"}),
-               sim::InputError);
+TEST_F(SmallScene, PinsThatSelectNothingAreToldWithTheirPlace) {
+  const auto error_of = [&](const std::vector<std::string>& overrides) -> std::string {
+    try {
+      scene_info(scene, overrides);
+    } catch (const sim::InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(error_of({"body.0.pin.0={ vertices = [4] }"}),
+            "--set body.0.pin.0={ vertices = [4] }: body.0.pin.0: vertex 4 is out of range; the body's "
+            "vertices are 0 to 3");
+  EXPECT_EQ(
+      error_of({"body.0.pin.0.box=[[2, 2, 2], [3, 3, 3]]"}).find(scene.string() + ":9:1: body.0.pin.0: box "),
+      0U);
 }
 
 TEST_F(SmallScene, RunIsTold) {
