@@ -49,10 +49,9 @@ TEST(Program, TellsWrongUsageAndInputByStatus2) {
   const Ended missing = run_program({"run", "no_such.toml"}, directory);
   EXPECT_EQ(missing.status, 2);
   EXPECT_EQ(
-      missing.err.find("lagomorph: error: no_such.toml: there is no such scene; the program's own are bunny, "
-                       "cantilever"),
-      0U)
+      missing.err.find("lagomorph: error: no_such.toml: there is no such scene; the program's own are "), 0U)
       << missing.err;
+  EXPECT_NE(missing.err.find("cantilever"), std::string::npos) << missing.err;
   const std::string scene = directory.write("a.toml", "[[body]]\nmesh = 'a.msh'\nyuong = 3\n").string();
   const std::string message = scene + ":3:1: unknown key 'yuong'; did you mean 'young' of [body.material]?";
   const std::string out = (directory.path() / "out").string();
