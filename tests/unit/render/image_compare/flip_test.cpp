@@ -1,0 +1,315 @@
+#include "render/image_compare/flip.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "render/error.h"
+#include "render/image_compare/differences.h"
+#include "render/image_compare/flip_color.h"
+#include "render/image_compare/flip_tile.h"
+#include "render/image_compare/pooling.h"
+#include "tests/support/pictures.h"
+
+namespace lagomorph::render {
+namespace {
+
+using tests::bytes_of;
+using tests::grainy;
+
+/// FLIP as the paper has it: two-dimensional filters, pixel by pixel, in double.
+class SlowFlip {
+public:
+  SlowFlip(const Pixels& a, const Pixels& b, double ppd)
+      : width_(a.width), height_(a.height), ppd_(ppd), opponent_{opponent(a), opponent(b)} {
+    spatial_radius_ = static_cast<int>(std::ceil(3 * std::sqrt(0.04 / (2 * pi * pi)) * ppd));
+    for (std::size_t c = 0; c < 3; ++c) spatial_[c] = spatial_filter(c);
+    const double sigma = 0.5 * 0.082 * ppd;
+    feature_radius_ = static_cast<int>(std::ceil(3 * sigma));
+    edge_ = feature_filter(sigma, [](double x, double) { return -x; });
+    point_ = feature_filter(sigma, [](double x, double s) { return x * x / (s * s) - 1; });
+  }
+
+  double at(int x, int y) const {
+    const double color = flip::color_difference(lab(0, x, y), lab(1, x, y));
+    const double edge = std::abs(length(edge_, 0, x, y) - length(edge_, 1, x, y));
+    const double point = std::abs(length(point_, 0, x, y) - length(point_, 1, x, y));
+    const double feature = std::sqrt(std::max(edge, point) / std::sqrt(2.0));
+    return std::pow(color, 1 - feature);
+  }
+
+private:
+  static constexpr double pi = std::numbers::pi;
+  using Filter = std::vector<double>;  // rows of (2 r + 1)
+
+  /// XYZ / white to Y, X - Y, Y - Z.
+  static std::vector<flip::Triple> opponent(const Pixels& pixels) {
+    std::vector<flip::Triple> result;
+    const auto& bytes = bytes_of(pixels);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+      flip::Triple rgb{};
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double s = bytes[i + c] / 255.0;
+        rgb[c] = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+      }
+      const flip::Triple xyz = flip::product(flip::relative_xyz_from_rgb(), rgb);
+      result.push_back({xyz[1], xyz[0] - xyz[1], xyz[1] - xyz[2]});
+    }
+    return result;
+  }
+
+  Filter spatial_filter(std::size_t channel) const {
+    constexpr double a1[] = {1, 1, 34.1};
+    constexpr double b1[] = {0.0047, 0.0053, 0.04};
+    constexpr double a2[] = {0, 0, 13.5};
+    constexpr double b2[] = {1e-5, 1e-5, 0.025};
+    Filter filter;
+    double sum = 0;
+    for (int y = -spatial_radius_; y <= spatial_radius_; ++y) {
+      for (int x = -spatial_radius_; x <= spatial_radius_; ++x) {
+        const double r2 = (x * x + y * y) / (ppd_ * ppd_);
+        const auto term = [&](double a, double b) {
+          return a * std::sqrt(pi / b) * std::exp(-pi * pi * r2 / b);
+        };
+        filter.push_back(term(a1[channel], b1[channel]) + term(a2[channel], b2[channel]));
+        sum += filter.back();
+      }
+    }
+    for (double& w : filter) w /= sum;
+    return filter;
+  }
+
+  template <class Derivative>
+  Filter feature_filter(double sigma, const Derivative& derivative) const {
+    Filter filter;
+    double positive = 0;
+    double negative = 0;
+    for (int y = -feature_radius_; y <= feature_radius_; ++y) {
+      for (int x = -feature_radius_; x <= feature_radius_; ++x) {
+        filter.push_back(derivative(x, sigma) * std::exp(-(x * x + y * y) / (2 * sigma * sigma)));
+        (filter.back() > 0 ? positive : negative) += std::abs(filter.back());
+      }
+    }
+    for (double& w : filter) w /= w > 0 ? positive : negative;
+    return filter;
+  }
+
+  double filtered(const Filter& filter, int radius, bool transposed, std::size_t which, std::size_t channel,
+                  int x, int y) const {
+    double sum = 0;
+    const int size = 2 * radius + 1;
+    for (int j = -radius; j <= radius; ++j) {
+      for (int i = -radius; i <= radius; ++i) {
+        const int at = std::clamp(y + j, 0, height_ - 1) * width_ + std::clamp(x + i, 0, width_ - 1);
+        const int w = transposed ? (i + radius) * size + j + radius : (j + radius) * size + i + radius;
+        sum += filter[static_cast<std::size_t>(w)] * opponent_[which][static_cast<std::size_t>(at)][channel];
+      }
+    }
+    return sum;
+  }
+
+  flip::Triple lab(std::size_t which, int x, int y) const {
+    flip::Triple v{};
+    for (std::size_t c = 0; c < 3; ++c) v[c] = filtered(spatial_[c], spatial_radius_, false, which, c, x, y);
+    flip::Triple rgb = flip::product(flip::rgb_from_relative_xyz(), {v[0] + v[1], v[0], v[0] - v[2]});
+    for (double& c : rgb) c = std::clamp(c, 0.0, 1.0);
+    return flip::hunt_lab(flip::product(flip::relative_xyz_from_rgb(), rgb));
+  }
+
+  double length(const Filter& filter, std::size_t which, int x, int y) const {
+    return std::hypot(filtered(filter, feature_radius_, false, which, 0, x, y),
+                      filtered(filter, feature_radius_, true, which, 0, x, y));
+  }
+
+  int width_;
+  int height_;
+  double ppd_;
+  std::array<std::vector<flip::Triple>, 2> opponent_;
+  int spatial_radius_ = 0;
+  int feature_radius_ = 0;
+  std::array<Filter, 3> spatial_;
+  Filter edge_;
+  Filter point_;
+};
+
+void expect_slow(const Pixels& a, const Pixels& b, double ppd) {
+  const ErrorMap map = flip_map(*linear_pair(a, b), ppd);
+  const SlowFlip slow(a, b, ppd);
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = 0; x < a.width; ++x)
+      ASSERT_NEAR(map.row(y)[x], slow.at(x, y), 5e-5) << x << "," << y << " at " << ppd;
+  }
+}
+
+TEST(Flip, IsThePapersPixelByPixel) {
+  expect_slow(grainy(45, 37, 1), grainy(45, 37, 2), default_pixels_per_degree);
+  expect_slow(grainy(45, 37, 1), grainy(45, 37, 2), 20);
+  expect_slow(grainy(31, 23, 3), grainy(31, 23, 4), 110);
+  expect_slow(grainy(9, 7, 3), grainy(9, 7, 4), 1);
+}
+
+TEST(Flip, PicturesSmallerThanTheFilters) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {1, 5}, {6, 1}, {3, 2}}) {
+    expect_slow(grainy(width, height, 5), grainy(width, height, 6), default_pixels_per_degree);
+  }
+}
+
+TEST(Flip, ALocalDifferenceInAFlatPicture) {
+  Pixels a = grainy(40, 30, 1, 1);
+  std::fill(bytes_of(a).begin(), bytes_of(a).end(), std::uint8_t{90});
+  Pixels b = a;
+  bytes_of(b)[3 * (15 * 40 + 20) + 1] = 250;
+  expect_slow(a, b, default_pixels_per_degree);
+}
+
+TEST(Flip, SaturatedColours) {
+  Pixels a = grainy(24, 20, 7);
+  Pixels b = grainy(24, 20, 8);
+  for (std::uint8_t& s : bytes_of(a)) s = s > 128 ? 255 : 0;
+  for (std::uint8_t& s : bytes_of(b)) s = s > 100 ? 255 : 0;
+  expect_slow(a, b, default_pixels_per_degree);
+}
+
+TEST(Flip, TheSameBitsForEveryNumberOfThreadsAndInstructionSet) {
+  const Pixels a = grainy(1100, 150, 1);
+  const Pixels b = grainy(1100, 150, 2);
+  const auto pair = linear_pair(a, b);
+  const auto with_threads = [&](std::size_t threads, InstructionSet set) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    return flip_map(*pair, default_pixels_per_degree, set).values;
+  };
+  const std::vector<float> one = with_threads(1, InstructionSet::base);
+  EXPECT_EQ(with_threads(4, InstructionSet::base), one);
+  EXPECT_EQ(with_threads(1, widest_instruction_set()), one);
+  EXPECT_EQ(with_threads(3, widest_instruction_set()), one);
+}
+
+TEST(Flip, APixelDoesNotDependOnItsTile) {
+  const Pixels a = grainy(600, 140, 1);
+  const Pixels b = grainy(600, 140, 2);
+  const auto pair = linear_pair(a, b);
+  const ErrorMap map = flip_map(*pair);
+  const FlipFilters filters = flip_filters(default_pixels_per_degree);
+  std::vector<float> scratch;
+  for (const Tile& tile : {Tile{0, 0, 1, 1}, {290, 50, 37, 41}, {597, 130, 3, 10}, {0, 63, 600, 2}}) {
+    std::vector<float> out(static_cast<std::size_t>(tile.width * tile.height));
+    flip_tile(*pair, filters, tile, widest_instruction_set(), scratch, out.data(),
+              static_cast<std::size_t>(tile.width));
+    for (int y = 0; y < tile.height; ++y) {
+      for (int x = 0; x < tile.width; ++x) {
+        ASSERT_EQ(out[static_cast<std::size_t>(y * tile.width + x)], map.row(tile.y + y)[tile.x + x]);
+      }
+    }
+  }
+}
+
+TEST(Flip, IsSymmetric) {
+  const Pixels a = grainy(70, 50, 1);
+  const Pixels b = grainy(70, 50, 2);
+  EXPECT_EQ(flip_map(*linear_pair(a, b)).values, flip_map(*linear_pair(b, a)).values);
+}
+
+TEST(Flip, EqualPicturesAreZeroEverywhere) {
+  const Pixels a = grainy(700, 90, 1);
+  EXPECT_EQ(flip_map(*linear_pair(a, a)).values, std::vector<float>(700 * 90, 0.0F));
+  // Also where the pictures differ elsewhere, further away than any filter reaches.
+  Pixels b = a;
+  bytes_of(b)[0] ^= 255U;
+  const ErrorMap map = flip_map(*linear_pair(a, b));
+  const int halo = static_cast<int>(flip_filters(default_pixels_per_degree).halo());
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      if (x <= halo && y <= halo) continue;
+      ASSERT_EQ(map.row(y)[x], 0.0F) << x << "," << y;
+    }
+  }
+  EXPECT_GT(map.values[0], 0.1F);
+}
+
+TEST(Flip, SixteenBitsAndAlphaChangeNothing) {
+  const Pixels a = grainy(50, 40, 1);
+  const Pixels b = grainy(50, 40, 2);
+  const std::vector<float> expected = flip_map(*linear_pair(a, b)).values;
+  const Pixels wide_a = widened(a);
+  const Pixels wide_b = widened(b);
+  EXPECT_EQ(flip_map(*linear_pair(wide_a, wide_b)).values, expected);
+  Pixels with_alpha{.width = 50, .height = 40, .channels = 4, .alpha = true, .samples = {}};
+  for (std::size_t i = 0; i < bytes_of(a).size(); i += 3) {
+    for (std::size_t c = 0; c < 3; ++c) bytes_of(with_alpha).push_back(bytes_of(a)[i + c]);
+    bytes_of(with_alpha).push_back(static_cast<std::uint8_t>(i % 256));
+  }
+  EXPECT_EQ(flip_map(*linear_pair(with_alpha, b)).values, expected);
+  EXPECT_EQ(flip_map(*linear_pair(with_alpha, a)).values, std::vector<float>(2000, 0.0F));
+}
+
+TEST(FlipFilters, SumToOneAndDerivativesToOneAndMinusOne) {
+  for (const double ppd : {1.0, 20.0, default_pixels_per_degree, 300.0, 1000.0}) {
+    const FlipFilters f = flip_filters(ppd);
+    const auto even_sum = [](const EvenFilter& w) {
+      double sum = w[0];
+      for (std::size_t k = 1; k < w.size(); ++k) sum += 2.0 * w[k];
+      return sum;
+    };
+    EXPECT_NEAR(even_sum(f.y), 1, 1e-6) << ppd;
+    EXPECT_NEAR(even_sum(f.cx), 1, 1e-6) << ppd;
+    EXPECT_NEAR(std::pow(even_sum(f.cz_1), 2) + std::pow(even_sum(f.cz_2), 2), 1, 1e-6) << ppd;
+    EXPECT_NEAR(even_sum(f.gauss), 1, 1e-6) << ppd;
+    EXPECT_NEAR(even_sum(f.second), 0, 1e-6) << ppd;
+    double first = 0;
+    double second_positive = 0;
+    for (std::size_t k = 1; k < f.first.size(); ++k) {
+      first += f.first[k];
+      if (f.second[k] > 0) second_positive += 2.0 * f.second[k];
+    }
+    EXPECT_NEAR(first, 1, 1e-6) << ppd;
+    EXPECT_NEAR(second_positive, 1, 1e-6) << ppd;
+  }
+}
+
+TEST(FlipFilters, RadiiOfTheDefault) {
+  EXPECT_NEAR(default_pixels_per_degree, 67.0206, 1e-4);
+  const FlipFilters f = flip_filters(default_pixels_per_degree);
+  EXPECT_EQ(f.cz_1.size(), 11U);
+  EXPECT_EQ(f.gauss.size(), 10U);
+  EXPECT_EQ(f.halo(), 10U);
+}
+
+TEST(FlipFilters, RefuseWhatIsNoViewingDistance) {
+  for (const double ppd : {0.0, -67.0, 0.99, 1000.1, std::nan(""), HUGE_VAL}) {
+    EXPECT_THROW(flip_filters(ppd), SettingsError) << ppd;
+  }
+}
+
+TEST(FlipColor, WhiteBlackAndTheLargestDistance) {
+  const flip::Triple white = flip::hunt_lab({1, 1, 1});
+  EXPECT_NEAR(white[0], 100, 1e-12);
+  EXPECT_NEAR(white[1], 0, 1e-12);
+  EXPECT_NEAR(white[2], 0, 1e-12);
+  EXPECT_NEAR(flip::hunt_lab({0, 0, 0})[0], 0, 1e-12);
+  // Y of the primaries [Rec. 709].
+  EXPECT_NEAR(flip::relative_xyz_from_rgb()[1][0], 0.2126, 5e-5);
+  EXPECT_NEAR(flip::relative_xyz_from_rgb()[1][1], 0.7152, 5e-5);
+  EXPECT_NEAR(flip::relative_xyz_from_rgb()[1][2], 0.0722, 5e-5);
+  const auto& forward = flip::relative_xyz_from_rgb();
+  const flip::Triple back =
+      flip::product(flip::rgb_from_relative_xyz(), flip::product(forward, {0.2, 0.5, 0.7}));
+  EXPECT_NEAR(back[0], 0.2, 1e-14);
+  EXPECT_NEAR(back[1], 0.5, 1e-14);
+  EXPECT_NEAR(back[2], 0.7, 1e-14);
+  const flip::Triple green = flip::hunt_lab(flip::product(forward, {0, 1, 0}));
+  const flip::Triple blue = flip::hunt_lab(flip::product(forward, {0, 0, 1}));
+  EXPECT_NEAR(flip::color_difference(green, blue), 1, 1e-14);
+  EXPECT_NEAR(flip::largest_color_distance(), std::pow(flip::hyab(green, blue), 0.7), 1e-12);
+  // The two branches meet at the knee.
+  const double knee = std::pow(flip::knee_in * flip::largest_color_distance(), 1 / 0.7);
+  EXPECT_NEAR(flip::color_difference({0, 0, 0}, {knee, 0, 0}), flip::knee_out, 1e-9);
+  EXPECT_EQ(flip::color_difference({5, 6, 7}, {5, 6, 7}), 0);
+}
+
+}  // namespace
+}  // namespace lagomorph::render
