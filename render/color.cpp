@@ -40,7 +40,8 @@ public:
 
   /// `linear` is not NaN.
   std::uint8_t code(float linear) const {
-    const float x = std::clamp(linear, 0x1p-13F, 1.0F);
+    const float above = linear > 0x1p-13F ? linear : 0x1p-13F;
+    const float x = above < 1.0F ? above : 1.0F;
     const std::uint32_t c = start_[(std::bit_cast<std::uint32_t>(x) - lowest) >> shift];
     return static_cast<std::uint8_t>(c + (x >= threshold_[c + 1] ? 1U : 0U));
   }

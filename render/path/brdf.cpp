@@ -1,0 +1,111 @@
+#include "render/path/brdf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lagomorph::render::path {
+namespace {
+
+constexpr float inv_pi = std::numbers::inv_pi_v<float>;
+
+float pow5(float x) {
+  const float x2 = x * x;
+  return x2 * x2 * x;
+}
+
+float luminance(const Color& c) { return 0.2126F * c.x() + 0.7152F * c.y() + 0.0722F * c.z(); }
+
+/// D(h) = 1 / (pi alpha^2 (hx^2/alpha^2 + hy^2/alpha^2 + hz^2)^2) [Walter et al. 2007].
+float ggx(const Vec3& h, float alpha) {
+  const float a2 = alpha * alpha;
+  const float k = (h.x() * h.x() + h.y() * h.y()) / a2 + h.z() * h.z();
+  return inv_pi / (a2 * k * k);
+}
+
+/// cos_w (1 + 2 Lambda(w)) = sqrt(alpha^2 sin^2 + cos^2).
+float smith_root(const Vec3& w, float alpha) {
+  return std::sqrt(alpha * alpha * (w.x() * w.x() + w.y() * w.y()) + w.z() * w.z());
+}
+
+}  // namespace
+
+Brdf::Brdf(const Material& m) {
+  const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
+  coat_f0_ = r * r;
+  coat_f90_ = std::min(1.0F, 50.0F * coat_f0_);
+  const float mean = coat_f0_ + (coat_f90_ - coat_f0_) / 21.0F;  // of F over the cosine-weighted hemisphere
+  base_ = (1.0F - m.metallic) * inv_pi / (1.0F - mean) * m.base_color;
+  f0_ = (1.0F - m.metallic) * Color::Constant(coat_f0_) + m.metallic * m.base_color;
+  f90_ = std::min(1.0F, 50.0F * f0_.maxCoeff());
+  alpha_ = std::max(m.roughness * m.roughness, 1e-3F);  // sharper is a mirror but for what float resolves
+}
+
+Brdf Brdf::roughened(float alpha) const {
+  Brdf rougher = *this;
+  rougher.alpha_ = std::max(alpha_, alpha);
+  return rougher;
+}
+
+/// Part of the light that the dielectric coat lets through.
+float Brdf::into_base(float cosine) const {
+  return 1.0F - coat_f0_ - (coat_f90_ - coat_f0_) * pow5(1.0F - cosine);
+}
+
+float Brdf::coat_probability(float cos_o) const {
+  const float coat = luminance(f0_ + (f90_ - f0_) * pow5(1.0F - cos_o));
+  const float base = luminance(base_) * std::numbers::pi_v<float> * into_base(cos_o);
+  return coat + base > 0.0F ? coat / (coat + base) : 0.0F;
+}
+
+Brdf::Value Brdf::evaluate(const Vec3& wo, const Vec3& wi) const {
+  if (wi.z() <= 0.0F || wo.z() <= 0.0F) return {};
+  const Vec3 h = (wo + wi).normalized();
+  const float d = ggx(h, alpha_);
+  const float root_o = smith_root(wo, alpha_);
+  const float root_i = smith_root(wi, alpha_);
+  const float visibility = 0.5F / (wo.z() * root_i + wi.z() * root_o);
+  const Color coat = (f0_ + (f90_ - f0_) * pow5(1.0F - std::min(wo.dot(h), 1.0F))) * (d * visibility);
+  const Color base = base_ * (into_base(wo.z()) * into_base(wi.z()));
+  const float p = coat_probability(wo.z());
+  // Density of reflecting at a visible normal: G1(o) D / (4 cos_o), G1 = 2 cos_o / (cos_o + root_o).
+  const float coat_pdf = d / (2.0F * (wo.z() + root_o));
+  return {(base + coat) * wi.z(), p * coat_pdf + (1.0F - p) * wi.z() * inv_pi};
+}
+
+Brdf::Sample Brdf::sample(const Vec3& wo, Pair s) const {
+  const float p = coat_probability(wo.z());
+  Vec3 wi;
+  if (s.u < p) {
+    const Vec3 h = sample_visible_normal(wo, alpha_, {s.u / p, s.v});
+    wi = 2.0F * wo.dot(h) * h - wo;
+  } else {
+    wi = sample_cosine({std::min((s.u - p) / (1.0F - p), 0x1.fffffep-1F), s.v});
+  }
+  return {wi, evaluate(wo, wi)};
+}
+
+Vec3 sample_visible_normal(const Vec3& wo, float alpha, Pair s) {
+  const Vec3 stretched = Vec3(alpha * wo.x(), alpha * wo.y(), wo.z()).normalized();
+  const float phi = 2.0F * std::numbers::pi_v<float> * s.u;
+  const float z = (1.0F - s.v) * (1.0F + stretched.z()) - stretched.z();
+  const float radius = std::sqrt(std::clamp(1.0F - z * z, 0.0F, 1.0F));
+  const Vec3 h = Vec3(radius * std::cos(phi), radius * std::sin(phi), z) + stretched;
+  return Vec3(alpha * h.x(), alpha * h.y(), std::max(h.z(), 1e-7F)).normalized();
+}
+
+Vec3 sample_cosine(Pair s) {
+  const float radius = std::sqrt(s.u);
+  const float phi = 2.0F * std::numbers::pi_v<float> * s.v;
+  return {radius * std::cos(phi), radius * std::sin(phi), std::sqrt(std::max(1.0F - s.u, 0.0F))};
+}
+
+void make_frame(const Vec3& n, Vec3& t, Vec3& b) {
+  const float sign = std::copysign(1.0F, n.z());
+  const float a = -1.0F / (sign + n.z());
+  const float c = n.x() * n.y() * a;
+  t = Vec3(1.0F + sign * n.x() * n.x() * a, sign * c, -sign * n.x());
+  b = Vec3(c, sign + n.y() * n.y() * a, -n.y());
+}
+
+}  // namespace lagomorph::render::path

@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <optional>
+
+#include <tbb/blocked_range2d.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "render/backends.h"
+#include "render/error.h"
+#include "render/path/filter.h"
+#include "render/path/path_tracer.h"
+#include "render/path/scene_geometry.h"
+
+namespace lagomorph::render {
+namespace {
+
+constexpr int tile_size = 32;
+
+void check_range(const char* key, int value, int low, int high) {
+  if (value >= low && value <= high) return;
+  throw SettingsError(std::string(key) + " = " + std::to_string(value) + " must be in " +
+                      std::to_string(low) + ".." + std::to_string(high));
+}
+
+class PathRenderer final : public Renderer {
+public:
+  PathRenderer(const RenderSettings& settings, int threads)
+      : settings_(settings),
+        filter_(settings.path.filter, settings.path.filter_radius),
+        threads_(std::max(threads, 1)),
+        arena_(threads_) {
+    check_range("render.samples", settings.samples, 1, 65536);
+    check_range("render.path.bounces", settings.path.bounces, 0, 64);
+  }
+
+  std::string_view name() const override { return "path"; }
+
+  void set_scene(const RenderScene& scene) override {
+    check_scene(scene);
+    scene_ = scene;
+    arena_.execute([&] { geometry_.emplace(scene_, threads_); });
+    shading_.emplace(scene_);
+  }
+
+  void update_positions(int mesh, std::span<const Vec3> positions) override {
+    if (mesh < 0 || static_cast<std::size_t>(mesh) >= scene_.meshes.size()) {
+      throw SettingsError("mesh " + std::to_string(mesh) + " is not one of the scene's " +
+                          std::to_string(scene_.meshes.size()));
+    }
+    const Mesh& m = scene_.meshes[static_cast<std::size_t>(mesh)];
+    if (positions.size() != m.positions.size()) {
+      throw SettingsError("mesh '" + m.name + "' has " + std::to_string(m.positions.size()) + " positions; " +
+                          std::to_string(positions.size()) + " were given");
+    }
+    if (!std::all_of(positions.begin(), positions.end(), [](const Vec3& p) { return p.allFinite(); })) {
+      throw SettingsError("mesh '" + m.name + "' has a position that is not finite");
+    }
+    geometry_->move(mesh, positions);
+  }
+
+  Image render(const Camera& camera, const FrameInfo& frame) override {
+    if (!geometry_) throw SettingsError("the path tracer has no scene");
+    Image image(camera.width(), camera.height());
+    arena_.execute([&] {
+      geometry_->commit();
+      draw_color(camera, frame.frame, image.add("color", 3));
+      if (std::find(settings_.channels.begin(), settings_.channels.end(), "depth") !=
+          settings_.channels.end()) {
+        draw_depth(camera, image.add("depth", 1));
+      }
+    });
+    return image;
+  }
+
+  std::string description() const override {
+    return "path: " + (geometry_ ? geometry_->caster().description() : path::RayCaster(1).description());
+  }
+
+private:
+  template <class Body>
+  void for_tiles(const Camera& camera, const Body& body) const {
+    const int columns = (camera.width() + tile_size - 1) / tile_size;
+    const int rows = (camera.height() + tile_size - 1) / tile_size;
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, columns * rows, 1),
+        [&](const tbb::blocked_range<int>& range) {
+          for (int i = range.begin(); i != range.end(); ++i) {
+            const int x = i % columns * tile_size;
+            const int y = i / columns * tile_size;
+            body(path::Tile{x, y, std::min(x + tile_size, camera.width()),
+                            std::min(y + tile_size, camera.height())});
+          }
+        },
+        tbb::simple_partitioner());
+  }
+
+  void draw_color(const Camera& camera, int frame, std::vector<float>& color) const {
+    const path::FrameSamples numbers(settings_.path.seed, frame, settings_.samples);
+    tbb::enumerable_thread_specific<path::PathTracer> tracers([&] {
+      return path::PathTracer(*geometry_, *shading_, camera, filter_, settings_.samples,
+                              settings_.path.bounces);
+    });
+    for_tiles(camera, [&](const path::Tile& tile) { tracers.local().trace(tile, numbers, color.data()); });
+  }
+
+  /// One ray through each pixel's centre. The ground is a surface over its whole disc.
+  void draw_depth(const Camera& camera, std::vector<float>& depth) const {
+    for_tiles(camera, [&](const path::Tile& tile) {
+      std::array<Ray, tile_size * tile_size> rays;
+      std::array<path::MeshHit, tile_size * tile_size> hits;
+      std::size_t count = 0;
+      for (int y = tile.y0; y < tile.y1; ++y) {
+        for (int x = tile.x0; x < tile.x1; ++x) {
+          rays[count++] = camera.ray(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+        }
+      }
+      geometry_->caster().intersect(std::span(rays).first(count), path::Coherence::coherent, hits);
+      std::size_t i = 0;
+      for (int y = tile.y0; y < tile.y1; ++y) {
+        for (int x = tile.x0; x < tile.x1; ++x, ++i) {
+          double t = geometry_->meet_ground(rays[i]);
+          if (hits[i].mesh != path::MeshHit::none) t = std::min(t, geometry_->meet(rays[i], hits[i]).t);
+          const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width()) +
+                             static_cast<std::size_t>(x);
+          // The ray's length along the view axis; exactly its length where it is orthographic.
+          depth[pixel] =
+              static_cast<float>(t * rays[i].direction.cast<double>().dot(camera.forward().cast<double>()));
+        }
+      }
+    });
+  }
+
+  RenderSettings settings_;
+  path::PixelFilter filter_;
+  int threads_;
+  mutable tbb::task_arena arena_;
+  RenderScene scene_;
+  std::optional<path::SceneGeometry> geometry_;
+  std::optional<path::Shading> shading_;
+};
+
+}  // namespace
+
+std::unique_ptr<Renderer> make_path_renderer(const RenderSettings& settings, int threads) {
+  return std::make_unique<PathRenderer>(settings, threads);
+}
+
+}  // namespace lagomorph::render

@@ -1,0 +1,320 @@
+#include "render/path/path_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lagomorph::render::path {
+namespace {
+
+constexpr std::size_t batch_size = 1024;
+constexpr std::size_t most_lights_at_once = 4;
+constexpr std::uint32_t roulette_depth = 3;
+constexpr float inv_pi = std::numbers::inv_pi_v<float>;
+
+// Names of the sample pairs; those of a surface are counted from surface_dimensions * (its depth + 1).
+constexpr std::uint32_t pixel_dimension = 0;
+constexpr std::uint32_t surface_dimensions = 16;
+constexpr std::uint32_t scatter_dimension = 0;
+constexpr std::uint32_t sky_dimension = 1;
+constexpr std::uint32_t choice_dimension = 2;   // u: roulette, v: which light
+constexpr std::uint32_t through_dimension = 3;  // u: ground or what lies behind it
+constexpr std::uint32_t light_dimension = 4;    // and the three after it
+
+std::uint32_t dimension(std::uint32_t depth, std::uint32_t name) {
+  return surface_dimensions * (depth + 1) + name;
+}
+
+/// Power heuristic for one sample of each of two ways [Veach 1997, Eq. 9.13].
+float power_heuristic(float pdf, float other) {
+  const float a = pdf * pdf;
+  const float b = other * other;
+  return a / (a + b);
+}
+
+}  // namespace
+
+Shading::Shading(const RenderScene& scene)
+    : ground(scene.ground), sky(scene.sky), background(scene.background) {
+  for (const Mesh& mesh : scene.meshes) brdfs.emplace_back(mesh.material);
+  brdfs.emplace_back(scene.ground.material);
+  float total = 0.0F;
+  for (const AreaLight& light : scene.lights) {
+    const RectangleLight rectangle(light);
+    if (rectangle.power() <= 0.0F) continue;
+    lights.push_back(rectangle);
+    total += rectangle.power();
+  }
+  for (const RectangleLight& light : lights) pick.push_back(light.power() / total);
+}
+
+PathTracer::PathTracer(const SceneGeometry& geometry, const Shading& shading, const Camera& camera,
+                       const PixelFilter& filter, int samples, int bounces)
+    : geometry_(geometry),
+      shading_(shading),
+      camera_(camera),
+      filter_(filter),
+      samples_(static_cast<std::uint32_t>(samples)),
+      bounces_(static_cast<std::uint32_t>(bounces)) {
+  rays_.reserve(batch_size);
+  paths_.reserve(batch_size);
+  hits_.reserve(batch_size);
+  vertices_.reserve(batch_size);
+  shadow_rays_.reserve(batch_size);
+  shadow_distances_.reserve(batch_size);
+  shadow_light_.reserve(batch_size);
+  shadow_lanes_.reserve(batch_size);
+  blocked_.reserve(batch_size);
+  radiance_.reserve(batch_size);
+}
+
+void PathTracer::trace(const Tile& tile, const FrameSamples& numbers, float* color) {
+  const auto width = static_cast<std::uint32_t>(tile.x1 - tile.x0);
+  const std::uint64_t total =
+      static_cast<std::uint64_t>(width) * static_cast<std::uint32_t>(tile.y1 - tile.y0) * samples_;
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  for (std::uint64_t first = 0; first < total; first += batch_size) {
+    const std::uint64_t count = std::min<std::uint64_t>(batch_size, total - first);
+    rays_.clear();
+    paths_.clear();
+    radiance_.assign(count, Color::Zero());
+    const auto place = [&](std::uint64_t i) {
+      const auto pixel = static_cast<std::uint32_t>(i / samples_);
+      return std::array<int, 2>{tile.x0 + static_cast<int>(pixel % width),
+                                tile.y0 + static_cast<int>(pixel / width)};
+    };
+    for (std::uint32_t lane = 0; lane < count; ++lane) {
+      const auto [x, y] = place(first + lane);
+      const PathSamples samples = numbers.path(x, y, static_cast<int>((first + lane) % samples_));
+      const Pair s = samples.pair(pixel_dimension);
+      rays_.push_back(camera_.ray(static_cast<float>(x) + 0.5F + filter_.offset(s.u),
+                                  static_cast<float>(y) + 0.5F + filter_.offset(s.v)));
+      paths_.push_back({Color::Ones(), 0.0F, 0.0F, std::numeric_limits<float>::infinity(), lane, samples});
+    }
+    for (std::uint32_t depth = 0; !paths_.empty(); ++depth) trace_batch(depth);
+    for (std::uint32_t lane = 0; lane < count; ++lane) {
+      sum += radiance_[lane].cast<double>();
+      if ((first + lane + 1) % samples_ != 0) continue;
+      const auto [x, y] = place(first + lane);
+      float* out = color + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width()) +
+                                static_cast<std::size_t>(x));
+      for (int k = 0; k < 3; ++k) out[k] = static_cast<float>(sum[k] / samples_);
+      sum.setZero();
+    }
+  }
+}
+
+void PathTracer::trace_batch(std::uint32_t depth) {
+  hits_.resize(rays_.size());
+  geometry_.caster().intersect(rays_, depth == 0 ? Coherence::coherent : Coherence::incoherent, hits_);
+  arrive(depth);
+  rays_.clear();
+  paths_.clear();
+  if (depth > bounces_) return;
+  gather_lights(depth);
+  gather_sky(depth);
+  scatter(depth);
+}
+
+/// Ends the rays: light that they meet is added, surfaces become vertices.
+void PathTracer::arrive(std::uint32_t depth) {
+  vertices_.clear();
+  for (std::size_t i = 0; i < rays_.size(); ++i) {
+    const Ray& ray = rays_[i];
+    const Path& path = paths_[i];
+    Ahead ahead = look(ray, hits_[i]);
+    radiance_[path.lane] +=
+        depth == 0 ? seen_by_camera(ray, ahead) : path.throughput * light_met(ray, path, depth - 1, ahead);
+    if (depth > bounces_) continue;
+    float share = 1.0F;
+    if (ahead.ground < SceneGeometry::never) {
+      // A fading ground before a mesh: the path takes one of them. Before the sky, whose light is added
+      // above, it goes on with the ground's share.
+      if (!ahead.on_mesh) {
+        share = ahead.opacity;
+      } else if (ahead.opacity < 1.0F &&
+                 path.samples.pair(dimension(depth, through_dimension)).u >= ahead.opacity) {
+        ahead.ground = SceneGeometry::never;
+      }
+    }
+    if (ahead.ground < SceneGeometry::never) {
+      begin_vertex(geometry_.arrive_at_ground(ray, ahead.ground), ray, path, shading_.ground_brdf(), share);
+    } else if (ahead.on_mesh) {
+      begin_vertex(geometry_.arrive(ray, hits_[i], ahead.mesh), ray, path, shading_.brdfs[hits_[i].mesh],
+                   1.0F);
+    }
+  }
+}
+
+PathTracer::Ahead PathTracer::look(const Ray& ray, const MeshHit& hit) const {
+  Ahead ahead{{SceneGeometry::never, 0.0, 0.0}, geometry_.meet_ground(ray), 0.0F, hit.mesh != MeshHit::none};
+  if (ahead.on_mesh) ahead.mesh = geometry_.meet(ray, hit);
+  if (ahead.ground < ahead.mesh.t) {
+    ahead.opacity = 1.0F - ground_fade(shading_.ground, geometry_.ground_point(ray, ahead.ground));
+  }
+  if (ahead.opacity <= 0.0F) ahead.ground = SceneGeometry::never;
+  return ahead;
+}
+
+/// What a camera ray sees besides surfaces: a visible light, which hides what is behind it, or the
+/// background.
+Color PathTracer::seen_by_camera(const Ray& ray, Ahead& ahead) const {
+  double nearest = ahead.mesh.t;
+  Color light = Color::Zero();
+  for (const RectangleLight& l : shading_.lights) {
+    if (!l.visible()) continue;
+    const double distance = l.intersect(ray).distance;
+    if (distance <= 0.0 || distance >= nearest) continue;
+    nearest = distance;
+    light = l.radiance();
+  }
+  if (nearest < ahead.mesh.t) {
+    ahead.on_mesh = false;
+    if (nearest < ahead.ground) {
+      ahead.ground = SceneGeometry::never;
+      return light;
+    }
+  } else if (ahead.on_mesh) {
+    return Color::Zero();
+  } else {
+    light = shading_.background ? *shading_.background : sky_radiance(shading_.sky, ray.direction);
+  }
+  return (1.0F - ahead.opacity) * light;
+}
+
+/// Light that a scattered ray meets, weighed against next-event estimation from where it left, at depth
+/// `from`.
+Color PathTracer::light_met(const Ray& ray, const Path& path, std::uint32_t from, const Ahead& ahead) const {
+  Color light = Color::Zero();
+  for (std::size_t k = 0; k < shading_.lights.size(); ++k) {
+    const RectangleLight& l = shading_.lights[k];
+    const RectangleLight::Hit hit = l.intersect(ray);
+    if (hit.distance <= 0.0F || hit.distance >= ahead.mesh.t) continue;
+    const float through = hit.distance < ahead.ground ? 1.0F : 1.0F - ahead.opacity;
+    const float pdf = pick_probability(k, from) * l.pdf(ray.origin, hit.point);
+    light += (through * power_heuristic(path.bsdf_pdf, pdf)) * l.radiance();
+  }
+  if (!ahead.on_mesh && ahead.opacity < 1.0F) {
+    const float weight = power_heuristic(path.bsdf_pdf, path.sky_pdf);
+    light += ((1.0F - ahead.opacity) * weight) * sky_radiance(shading_.sky, ray.direction);
+  }
+  return light;
+}
+
+void PathTracer::begin_vertex(const SurfacePoint& at, const Ray& ray, const Path& path, const Brdf& brdf,
+                              float share) {
+  Vertex& v = vertices_.emplace_back();
+  v.origin = at.origin;
+  v.n = at.normal;
+  make_frame(v.n, v.t, v.b);
+  v.wo = Vec3(-ray.direction.dot(v.t), -ray.direction.dot(v.b), -ray.direction.dot(v.n));
+  v.brdf = path.least_pdf < 1.0F ? brdf.roughened(0.5F * std::sqrt(1.0F - path.least_pdf)) : brdf;
+  v.throughput = share * path.throughput;
+  v.least_pdf = path.least_pdf;
+  v.lane = path.lane;
+  v.samples = path.samples;
+}
+
+bool PathTracer::all_lights_at(std::uint32_t depth) const {
+  return depth == 0 && shading_.lights.size() <= most_lights_at_once;
+}
+
+float PathTracer::pick_probability(std::size_t light, std::uint32_t depth) const {
+  return all_lights_at(depth) ? 1.0F : shading_.pick[light];
+}
+
+/// Shadow rays to the area lights: to each from the first surface when they are few, else to one picked by
+/// power.
+void PathTracer::gather_lights(std::uint32_t depth) {
+  if (shading_.lights.empty()) return;
+  const Coherence coherence = depth == 0 ? Coherence::coherent : Coherence::incoherent;
+  if (all_lights_at(depth)) {
+    for (std::size_t k = 0; k < shading_.lights.size(); ++k) {
+      const auto name = light_dimension + static_cast<std::uint32_t>(k);
+      for (const Vertex& v : vertices_)
+        gather_light(v, shading_.lights[k], 1.0F, v.samples.pair(dimension(depth, name)));
+      trace_shadows(coherence);
+    }
+    return;
+  }
+  for (const Vertex& v : vertices_) {
+    float left = v.samples.pair(dimension(depth, choice_dimension)).v;
+    std::size_t k = 0;
+    while (k + 1 < shading_.lights.size() && left >= shading_.pick[k]) left -= shading_.pick[k++];
+    gather_light(v, shading_.lights[k], shading_.pick[k], v.samples.pair(dimension(depth, light_dimension)));
+  }
+  trace_shadows(coherence);
+}
+
+void PathTracer::gather_light(const Vertex& v, const RectangleLight& light, float pick, Pair s) {
+  const RectangleLight::Sample to = light.sample(v.origin, s);
+  const Vec3 wi(to.direction.dot(v.t), to.direction.dot(v.b), to.direction.dot(v.n));
+  const float pdf = pick * to.pdf;
+  if (pdf <= 0.0F || wi.z() <= 0.0F) return;
+  const Brdf::Value f = v.brdf.evaluate(v.wo, wi);
+  const Color arriving = (power_heuristic(pdf, f.pdf) / pdf) * light.radiance() * f.f_cos * v.throughput;
+  // The light is no obstacle; 1e-5 short of it so that a mesh around it is none either.
+  push_shadow({v.origin, to.direction}, to.distance * (1.0F - 1e-5F), arriving, v.lane);
+}
+
+/// Shadow rays to the sky, spread as the cosine.
+void PathTracer::gather_sky(std::uint32_t depth) {
+  if (shading_.sky.strength <= 0.0F) return;
+  for (const Vertex& v : vertices_) {
+    const Vec3 wi = sample_cosine(v.samples.pair(dimension(depth, sky_dimension)));
+    const float pdf = wi.z() * inv_pi;
+    if (pdf <= 0.0F) continue;
+    const Vec3 direction = wi.x() * v.t + wi.y() * v.b + wi.z() * v.n;
+    const Brdf::Value f = v.brdf.evaluate(v.wo, wi);
+    const Color arriving =
+        (power_heuristic(pdf, f.pdf) / pdf) * sky_radiance(shading_.sky, direction) * f.f_cos * v.throughput;
+    push_shadow({v.origin, direction}, std::numeric_limits<float>::infinity(), arriving, v.lane);
+  }
+  trace_shadows(Coherence::incoherent);
+}
+
+/// Queues a shadow ray, unless the ground takes all of it; a fading ground takes its share.
+void PathTracer::push_shadow(const Ray& ray, float distance, const Color& arriving, std::uint32_t lane) {
+  float through = 1.0F;
+  const double ground = geometry_.meet_ground(ray);
+  if (ground < distance) through = ground_fade(shading_.ground, geometry_.ground_point(ray, ground));
+  if (through <= 0.0F || arriving.maxCoeff() <= 0.0F) return;
+  shadow_rays_.push_back(ray);
+  shadow_distances_.push_back(distance);
+  shadow_light_.push_back(through * arriving);
+  shadow_lanes_.push_back(lane);
+}
+
+void PathTracer::trace_shadows(Coherence coherence) {
+  blocked_.resize(shadow_rays_.size());
+  geometry_.caster().occluded(shadow_rays_, shadow_distances_, coherence, blocked_);
+  for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
+    if (blocked_[i] == 0) radiance_[shadow_lanes_[i]] += shadow_light_[i];
+  }
+  shadow_rays_.clear();
+  shadow_distances_.clear();
+  shadow_light_.clear();
+  shadow_lanes_.clear();
+}
+
+/// The next rays, by the BRDF; dim paths end by Russian roulette.
+void PathTracer::scatter(std::uint32_t depth) {
+  for (const Vertex& v : vertices_) {
+    const Brdf::Sample s = v.brdf.sample(v.wo, v.samples.pair(dimension(depth, scatter_dimension)));
+    if (s.value.pdf <= 0.0F) continue;
+    Color throughput = v.throughput * s.value.f_cos / s.value.pdf;
+    const float bright = throughput.maxCoeff();
+    if (bright <= 0.0F) continue;
+    if (depth >= roulette_depth && bright < 1.0F) {
+      if (v.samples.pair(dimension(depth, choice_dimension)).u >= bright) continue;
+      throughput /= bright;
+    }
+    const Vec3& wi = s.direction;
+    rays_.push_back({v.origin, wi.x() * v.t + wi.y() * v.b + wi.z() * v.n});
+    paths_.push_back(
+        {throughput, s.value.pdf, wi.z() * inv_pi, std::min(v.least_pdf, s.value.pdf), v.lane, v.samples});
+  }
+}
+
+}  // namespace lagomorph::render::path

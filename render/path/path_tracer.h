@@ -1,0 +1,111 @@
+#pragma once
+
+#include <vector>
+
+#include "render/camera.h"
+#include "render/path/brdf.h"
+#include "render/path/filter.h"
+#include "render/path/light.h"
+#include "render/path/sampler.h"
+#include "render/path/scene_geometry.h"
+#include "render/render_scene.h"
+
+namespace lagomorph::render::path {
+
+/// What paths need to know of a scene besides its geometry.
+struct Shading {
+  explicit Shading(const RenderScene&);
+
+  std::vector<Brdf> brdfs;  // a mesh each, then the ground's
+  std::vector<RectangleLight> lights;
+  std::vector<float> pick;  // probability of each light where one is picked
+  Ground ground;
+  Sky sky;
+  std::optional<Color> background;
+
+  const Brdf& ground_brdf() const { return brdfs.back(); }
+};
+
+/// A rectangle of pixels [x0, x1) x [y0, y1).
+struct Tile {
+  int x0, y0, x1, y1;
+};
+
+/// Traces the paths of one thread, a batch of them in step: all rays of a kind are traced together, in
+/// packets. Keeps its room from batch to batch.
+///
+/// At each surface, light arrives by next-event estimation of the area lights and the sky and by the
+/// scattered ray that finds them, weighed by the power heuristic [Veach 1997]. From the fourth surface on,
+/// dim paths are ended by Russian roulette. The lights are no obstacle; one that is visible is opaque to the
+/// camera.
+class PathTracer {
+public:
+  PathTracer(const SceneGeometry&, const Shading&, const Camera&, const PixelFilter&, int samples,
+             int bounces);
+
+  /// Mean radiance of the tile's pixels into `color`, 3 floats a pixel of the whole picture. Sums go in the
+  /// order of the samples.
+  void trace(const Tile&, const FrameSamples&, float* color);
+
+private:
+  struct Path {
+    Color throughput;
+    float bsdf_pdf;   // of the ray's direction [1/sr]
+    float sky_pdf;    // of the same by next-event estimation
+    float least_pdf;  // bsdf_pdf's least along the path
+    std::uint32_t lane;
+    PathSamples samples;
+  };
+  struct Vertex {
+    Vec3 origin;
+    Vec3 t, b, n;  // shading frame
+    Vec3 wo;       // in it
+    Brdf brdf;
+    Color throughput;
+    float least_pdf;
+    std::uint32_t lane;
+    PathSamples samples;
+  };
+
+  /// What a ray meets.
+  struct Ahead {
+    SceneGeometry::TriangleHit mesh;  // t = never when not on_mesh
+    double ground;                    // distance of the ground before the mesh, or never
+    float opacity;                    // of the ground there; 0 when never
+    bool on_mesh;
+  };
+
+  void trace_batch(std::uint32_t depth);
+  void arrive(std::uint32_t depth);
+  Ahead look(const Ray&, const MeshHit&) const;
+  Color seen_by_camera(const Ray&, Ahead&) const;
+  Color light_met(const Ray&, const Path&, std::uint32_t from, const Ahead&) const;
+  void begin_vertex(const SurfacePoint&, const Ray&, const Path&, const Brdf&, float share);
+  bool all_lights_at(std::uint32_t depth) const;
+  float pick_probability(std::size_t light, std::uint32_t depth) const;
+  void gather_lights(std::uint32_t depth);
+  void gather_light(const Vertex&, const RectangleLight&, float pick, Pair);
+  void gather_sky(std::uint32_t depth);
+  void push_shadow(const Ray&, float distance, const Color& arriving, std::uint32_t lane);
+  void trace_shadows(Coherence);
+  void scatter(std::uint32_t depth);
+
+  const SceneGeometry& geometry_;
+  const Shading& shading_;
+  const Camera& camera_;
+  const PixelFilter& filter_;
+  std::uint32_t samples_, bounces_;
+
+  std::vector<Ray> rays_;  // of paths_
+  std::vector<Path> paths_;
+  std::vector<MeshHit> hits_;
+  std::vector<Vertex> vertices_;
+  std::vector<Ray> shadow_rays_;
+  std::vector<float> shadow_distances_;
+  std::vector<Color> shadow_light_;  // what arrives when nothing is in the way
+  std::vector<std::uint32_t> shadow_lanes_;
+  std::vector<std::uint8_t> blocked_;
+  std::vector<Color> radiance_;  // of each lane
+};
+
+}  // namespace lagomorph::render::path

@@ -1,0 +1,220 @@
+#include "render/path/ray_caster.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include <embree3/rtcore.h>
+
+#include "render/error.h"
+
+namespace lagomorph::render::path {
+namespace {
+
+/// Embree's calls for packets of N rays.
+template <int N>
+struct Packet;
+template <>
+struct Packet<4> {
+  using RayHits = RTCRayHit4;
+  using Rays = RTCRay4;
+  static constexpr auto intersect = rtcIntersect4;
+  static constexpr auto occluded = rtcOccluded4;
+};
+template <>
+struct Packet<8> {
+  using RayHits = RTCRayHit8;
+  using Rays = RTCRay8;
+  static constexpr auto intersect = rtcIntersect8;
+  static constexpr auto occluded = rtcOccluded8;
+};
+template <>
+struct Packet<16> {
+  using RayHits = RTCRayHit16;
+  using Rays = RTCRay16;
+  static constexpr auto intersect = rtcIntersect16;
+  static constexpr auto occluded = rtcOccluded16;
+};
+
+RTCIntersectContext context(Coherence coherence) {
+  RTCIntersectContext c;
+  rtcInitIntersectContext(&c);
+  c.flags = coherence == Coherence::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                             : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  return c;
+}
+
+/// Lane k of a packet becomes the ray; lanes past the last ray repeat it and are masked out.
+template <int N>
+void load(typename Packet<N>::Rays& packet, int k, const Ray& ray, float distance) {
+  packet.org_x[k] = ray.origin.x();
+  packet.org_y[k] = ray.origin.y();
+  packet.org_z[k] = ray.origin.z();
+  packet.tnear[k] = 0.0F;
+  packet.dir_x[k] = ray.direction.x();
+  packet.dir_y[k] = ray.direction.y();
+  packet.dir_z[k] = ray.direction.z();
+  packet.time[k] = 0.0F;
+  packet.tfar[k] = distance;
+  packet.mask[k] = 0xffffffffU;
+  packet.id[k] = 0;
+  packet.flags[k] = 0;
+}
+
+template <int N>
+void intersect_packets(RTCScene scene, std::span<const Ray> rays, Coherence coherence,
+                       std::span<MeshHit> hits) {
+  RTCIntersectContext c = context(coherence);
+  typename Packet<N>::RayHits packet;
+  alignas(64) int valid[N];
+  for (std::size_t first = 0; first < rays.size(); first += N) {
+    const std::size_t count = std::min<std::size_t>(N, rays.size() - first);
+    for (int k = 0; k < N; ++k) {
+      const auto lane = static_cast<std::size_t>(k);
+      load<N>(packet.ray, k, rays[first + std::min(lane, count - 1)], std::numeric_limits<float>::infinity());
+      packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+      packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+      valid[k] = lane < count ? -1 : 0;
+    }
+    Packet<N>::intersect(valid, scene, &c, &packet);
+    for (std::size_t k = 0; k < count; ++k) hits[first + k] = {packet.hit.geomID[k], packet.hit.primID[k]};
+  }
+}
+
+template <int N>
+void occluded_packets(RTCScene scene, std::span<const Ray> rays, std::span<const float> distances,
+                      Coherence coherence, std::span<std::uint8_t> blocked) {
+  RTCIntersectContext c = context(coherence);
+  typename Packet<N>::Rays packet;
+  alignas(64) int valid[N];
+  for (std::size_t first = 0; first < rays.size(); first += N) {
+    const std::size_t count = std::min<std::size_t>(N, rays.size() - first);
+    for (int k = 0; k < N; ++k) {
+      const auto lane = static_cast<std::size_t>(k);
+      const std::size_t i = first + std::min(lane, count - 1);
+      load<N>(packet, k, rays[i], distances[i]);
+      valid[k] = lane < count ? -1 : 0;
+    }
+    Packet<N>::occluded(valid, scene, &c, &packet);
+    for (std::size_t k = 0; k < count; ++k) blocked[first + k] = packet.tfar[k] < 0.0F ? 1 : 0;
+  }
+}
+
+}  // namespace
+
+struct RayCaster::Impl {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  std::vector<RTCGeometry> geometries;  // a mesh each, owned by the scene; null without triangles
+  int packet_width = 4;
+
+  ~Impl() {
+    if (scene != nullptr) rtcReleaseScene(scene);
+    if (device != nullptr) rtcReleaseDevice(device);
+  }
+
+  void check(const char* what) const {
+    const RTCError error = rtcGetDeviceError(device);
+    if (error == RTC_ERROR_NONE) return;
+    throw DeviceError(std::string("Embree cannot ") + what +
+                      (error == RTC_ERROR_OUT_OF_MEMORY
+                           ? ": out of memory"
+                           : ": error " + std::to_string(static_cast<int>(error))));
+  }
+};
+
+RayCaster::RayCaster(int threads) : impl_(std::make_unique<Impl>()) {
+  impl_->device = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
+  if (impl_->device == nullptr) {
+    throw DeviceError("Embree gives no device: error " +
+                      std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))));
+  }
+  if (rtcGetDeviceProperty(impl_->device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0)
+    impl_->packet_width = 8;
+  if (rtcGetDeviceProperty(impl_->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0)
+    impl_->packet_width = 16;
+}
+
+RayCaster::~RayCaster() = default;
+
+void RayCaster::build(std::span<const Mesh> meshes) {
+  if (impl_->scene != nullptr) rtcReleaseScene(impl_->scene);
+  impl_->geometries.clear();
+  impl_->scene = rtcNewScene(impl_->device);
+  // Embree refits a geometry of quality REFIT only in a scene of quality LOW; in others it rebuilds it
+  // silently.
+  rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_LOW);
+  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST);
+  for (const Mesh& mesh : meshes) {
+    if (mesh.triangles.empty()) {
+      impl_->geometries.push_back(nullptr);
+      continue;
+    }
+    RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
+    void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                              sizeof(Vec3), mesh.positions.size());
+    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                              sizeof(Triangle), mesh.triangles.size());
+    if (positions != nullptr && triangles != nullptr) {
+      std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * sizeof(Vec3));
+      std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * sizeof(Triangle));
+      rtcCommitGeometry(geometry);
+      rtcAttachGeometryByID(impl_->scene, geometry, static_cast<unsigned>(impl_->geometries.size()));
+    }
+    impl_->geometries.push_back(geometry);
+    rtcReleaseGeometry(geometry);
+    impl_->check("hold the meshes");
+  }
+  commit();
+}
+
+void RayCaster::move(int mesh, std::span<const Vec3> positions) {
+  RTCGeometry geometry = impl_->geometries[static_cast<std::size_t>(mesh)];
+  if (geometry == nullptr) return;
+  std::memcpy(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0), positions.data(),
+              positions.size() * sizeof(Vec3));
+  rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+  rtcCommitGeometry(geometry);
+}
+
+void RayCaster::commit() {
+  rtcCommitScene(impl_->scene);
+  impl_->check("build the ray tracing hierarchy");
+}
+
+void RayCaster::intersect(std::span<const Ray> rays, Coherence coherence, std::span<MeshHit> hits) const {
+  switch (impl_->packet_width) {
+    case 16:
+      return intersect_packets<16>(impl_->scene, rays, coherence, hits);
+    case 8:
+      return intersect_packets<8>(impl_->scene, rays, coherence, hits);
+    default:
+      return intersect_packets<4>(impl_->scene, rays, coherence, hits);
+  }
+}
+
+void RayCaster::occluded(std::span<const Ray> rays, std::span<const float> distances, Coherence coherence,
+                         std::span<std::uint8_t> blocked) const {
+  switch (impl_->packet_width) {
+    case 16:
+      return occluded_packets<16>(impl_->scene, rays, distances, coherence, blocked);
+    case 8:
+      return occluded_packets<8>(impl_->scene, rays, distances, coherence, blocked);
+    default:
+      return occluded_packets<4>(impl_->scene, rays, distances, coherence, blocked);
+  }
+}
+
+std::string RayCaster::description() const {
+  const auto version = rtcGetDeviceProperty(impl_->device, RTC_DEVICE_PROPERTY_VERSION);
+  const char* isa = impl_->packet_width == 16                                                   ? "avx512"
+                    : impl_->packet_width == 4                                                  ? "sse"
+                    : __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 ? "avx2"
+                                                                                                : "avx";
+  return "Embree " + std::to_string(version / 10000) + "." + std::to_string(version / 100 % 100) + "." +
+         std::to_string(version % 100) + " isa=" + isa;
+}
+
+}  // namespace lagomorph::render::path

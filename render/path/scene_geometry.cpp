@@ -1,0 +1,145 @@
+#include "render/path/scene_geometry.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace lagomorph::render::path {
+namespace {
+
+/// The point on the smooth surface that the vertex normals stand for: p is projected onto the three tangent
+/// planes where it lies below them, the projections are interpolated and p is moved half of the way there
+/// [Hanika 2021, "Hacking the Shadow Terminator"; he goes all of it]. Half is the sphere itself where the
+/// vertices lie on one. Rays that start there do not meet the facets of a convex surface whose normals they
+/// still pass.
+Vec3 smooth_point(const Vec3& p, const Vec3 (&x)[3], const Vec3 (&n)[3], const float (&weight)[3]) {
+  Vec3 raised = p;
+  for (int k = 0; k < 3; ++k) {
+    const float below = std::min(0.0F, (p - x[k]).dot(n[k]));
+    raised -= 0.5F * weight[k] * below * n[k];
+  }
+  return raised;
+}
+
+/// n bent as little as needed for the unit direction wo to be above it.
+Vec3 facing(const Vec3& n, const Vec3& wo) {
+  constexpr float least = 1e-3F;
+  const float cosine = n.dot(wo);
+  return cosine >= least ? n : Vec3((n + (least - cosine) * wo).normalized());
+}
+
+}  // namespace
+
+SceneGeometry::SceneGeometry(const RenderScene& scene, int threads)
+    : ground_(scene.ground), caster_(threads) {
+  meshes_.reserve(scene.meshes.size());
+  for (const Mesh& m : scene.meshes) {
+    meshes_.push_back(
+        {m.triangles, m.positions, {}, VertexNormals(m.triangles, m.positions.size()), m.smooth, true});
+  }
+  caster_.build(scene.meshes);
+}
+
+void SceneGeometry::move(int mesh, std::span<const Vec3> positions) {
+  Moving& m = meshes_[static_cast<std::size_t>(mesh)];
+  std::copy(positions.begin(), positions.end(), m.positions.begin());
+  m.moved = true;
+}
+
+void SceneGeometry::commit() {
+  bool any = false;
+  for (std::size_t i = 0; i < meshes_.size(); ++i) {
+    Moving& m = meshes_[i];
+    if (!m.moved) continue;
+    m.moved = false;
+    any = true;
+    if (m.smooth) m.topology.compute(m.triangles, m.positions, m.normals);
+    caster_.move(static_cast<int>(i), m.positions);
+  }
+  if (any) caster_.commit();
+}
+
+SceneGeometry::TriangleHit SceneGeometry::meet(const Ray& ray, const MeshHit& hit) const {
+  // [Möller and Trumbore 1997]
+  const Moving& m = meshes_[hit.mesh];
+  const Triangle& triangle = m.triangles[hit.triangle];
+  const Eigen::Vector3d d = ray.direction.cast<double>();
+  const Eigen::Vector3d a = m.positions[triangle[0]].cast<double>();
+  const Eigen::Vector3d e1 = m.positions[triangle[1]].cast<double>() - a;
+  const Eigen::Vector3d e2 = m.positions[triangle[2]].cast<double>() - a;
+  const Eigen::Vector3d s = ray.origin.cast<double>() - a;
+  const Eigen::Vector3d p = d.cross(e2);
+  const double det = e1.dot(p);
+  if (det == 0.0)
+    return {((e1 + e2) / 3.0 - s).dot(d), 1.0 / 3.0, 1.0 / 3.0};  // edge-on to rounding: its middle
+  const Eigen::Vector3d q = s.cross(e1);
+  const double inv = 1.0 / det;
+  return {e2.dot(q) * inv, s.dot(p) * inv, d.dot(q) * inv};
+}
+
+SurfacePoint SceneGeometry::arrive(const Ray& ray, const MeshHit& hit, const TriangleHit& at) const {
+  const Moving& m = meshes_[hit.mesh];
+  const Triangle& triangle = m.triangles[hit.triangle];
+  const Vec3 x[3] = {m.positions[triangle[0]], m.positions[triangle[1]], m.positions[triangle[2]]};
+  const Vec3 wo = -ray.direction;
+  const Eigen::Vector3d e1 = (x[1] - x[0]).cast<double>();
+  const Eigen::Vector3d e2 = (x[2] - x[0]).cast<double>();
+  const Vec3 p = (x[0].cast<double>() + at.u * e1 + at.v * e2).cast<float>();
+  Vec3 flat = e1.cross(e2).normalized().cast<float>();
+  const float side = flat.dot(wo) < 0.0F ? -1.0F : 1.0F;
+  flat *= side;
+
+  Vec3 shading = flat;
+  Vec3 start = p;
+  if (m.smooth) {
+    const Vec3 n[3] = {side * m.normals[triangle[0]], side * m.normals[triangle[1]],
+                       side * m.normals[triangle[2]]};
+    const float weight[3] = {static_cast<float>(1.0 - at.u - at.v), static_cast<float>(at.u),
+                             static_cast<float>(at.v)};
+    const Vec3 sum = weight[0] * n[0] + weight[1] * n[1] + weight[2] * n[2];
+    const float length = sum.norm();
+    if (length > 0.0F && sum.dot(flat) > 0.0F) {
+      shading = sum / length;
+      start = smooth_point(p, x, n, weight);
+    }
+  }
+  Vec3 origin = offset_along(start, flat);
+  // A body that stands on the ground is not lit through it.
+  if (ground_.enabled && p.y() >= ground_.height) origin.y() = std::max(origin.y(), ground_.height);
+  return {origin, facing(shading, wo)};
+}
+
+double SceneGeometry::meet_ground(const Ray& ray) const {
+  if (!ground_.enabled) return never;
+  const double above = static_cast<double>(ray.origin.y()) - ground_.height;
+  const double climb = ray.direction.y();
+  // A ray that begins on the plane begins above it.
+  if (above >= 0.0 ? climb >= 0.0 : climb <= 0.0) return never;
+  const double t = -above / climb;
+  const double x = ray.origin.x() + t * ray.direction.x() - ground_.center.x();
+  const double z = ray.origin.z() + t * ray.direction.z() - ground_.center.z();
+  return x * x + z * z <= static_cast<double>(ground_.radius) * ground_.radius ? t : never;
+}
+
+Vec3 SceneGeometry::ground_point(const Ray& ray, double t) const {
+  return {static_cast<float>(ray.origin.x() + t * ray.direction.x()), ground_.height,
+          static_cast<float>(ray.origin.z() + t * ray.direction.z())};
+}
+
+SurfacePoint SceneGeometry::arrive_at_ground(const Ray& ray, double t) const {
+  const Vec3 normal(0.0F, ray.direction.y() < 0.0F ? 1.0F : -1.0F, 0.0F);
+  return {offset_along(ground_point(ray, t), normal), facing(normal, -ray.direction)};
+}
+
+Vec3 offset_along(const Vec3& p, const Vec3& n) {
+  Vec3 moved;
+  for (int k = 0; k < 3; ++k) {
+    const auto steps = static_cast<std::int32_t>(256.0F * n[k]);
+    const auto bits = std::bit_cast<std::int32_t>(p[k]);
+    const float by_bits = std::bit_cast<float>(bits + (p[k] < 0.0F ? -steps : steps));
+    moved[k] = std::abs(p[k]) < 1.0F / 32.0F ? p[k] + n[k] / 65536.0F : by_bits;
+  }
+  return moved;
+}
+
+}  // namespace lagomorph::render::path

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "render/normals.h"
+#include "render/path/ray_caster.h"
+#include "render/render_scene.h"
+
+namespace lagomorph::render::path {
+
+/// A point where a ray arrived, and from where rays go on.
+struct SurfacePoint {
+  Vec3 origin;  // of rays that go on: off the surface on the side of the arrival, so that they do not meet it
+                // again
+  Vec3 normal;  // unit shading normal, on the side of the arrival
+};
+
+/// The meshes and the ground as a ray sees them: what the hierarchy's answers mean in space.
+class SceneGeometry {
+public:
+  /// Throws DeviceError as RayCaster does. The scene is checked (check_scene).
+  SceneGeometry(const RenderScene&, int threads);
+
+  void move(int mesh, std::span<const Vec3> positions);
+  /// Makes the normals and the hierarchy follow what has moved.
+  void commit();
+  const RayCaster& caster() const { return caster_; }
+
+  /// Where on its triangle a ray meets it: distance and barycentric coordinates, computed again from the
+  /// vertices in double precision, so that they do not depend on the hierarchy's instruction set.
+  struct TriangleHit {
+    double t;     // [m]
+    double u, v;  // weights of the second and third vertex
+  };
+  TriangleHit meet(const Ray&, const MeshHit&) const;
+  /// The surface at a hit.
+  SurfacePoint arrive(const Ray&, const MeshHit&, const TriangleHit&) const;
+
+  static constexpr double never = std::numeric_limits<double>::infinity();
+  /// Distance to the ground's disc, from either side; `never` where a ray misses it.
+  double meet_ground(const Ray&) const;
+  /// Point of the ground's plane at a distance.
+  Vec3 ground_point(const Ray&, double t) const;
+  SurfacePoint arrive_at_ground(const Ray&, double t) const;
+
+private:
+  struct Moving {
+    std::vector<Triangle> triangles;
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;  // a vertex; empty when not smooth
+    VertexNormals topology;
+    bool smooth;
+    bool moved;
+  };
+  std::vector<Moving> meshes_;
+  Ground ground_;
+  RayCaster caster_;
+};
+
+/// p moved off its surface along the unit normal n by some 256 units in the last place [Wächter and Binder
+/// 2019].
+Vec3 offset_along(const Vec3& p, const Vec3& n);
+
+}  // namespace lagomorph::render::path
