@@ -11,7 +11,7 @@ packages() {
     case $name in
       '' | '#'*) ;;
       '['*) section=${name//[\[\]]/} ;;
-      *) for wanted; do [ "$section" = "$wanted" ] && printf '%s\n' "$name"; done ;;
+      *) for wanted; do if [ "$section" = "$wanted" ]; then printf '%s\n' "$name"; fi; done ;;
     esac
   done <"$root/apps/packages.txt"
 }
@@ -19,14 +19,14 @@ packages() {
 # install_packages SECTION...: apt-get for those that are not there. Says nothing when all are.
 install_packages() {
   local wanted missing as_root=()
-  [ "${LAGOMORPH_SKIP_INSTALL:-0}" = 1 ] && return
+  if [ "${LAGOMORPH_SKIP_INSTALL:-0}" = 1 ]; then return; fi
   wanted=$(packages "$@")
   command -v apt-get >/dev/null && command -v dpkg-query >/dev/null ||
     fail "apt is not here: install these yourself, then set LAGOMORPH_SKIP_INSTALL=1: $(echo $wanted)"
   # shellcheck disable=SC2086
   missing=$(comm -23 <(sort -u <<<"$wanted") \
     <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' $wanted 2>/dev/null | sed -n 's/^installed //p' | sort -u))
-  [ -z "$missing" ] && return
+  if [ -z "$missing" ]; then return; fi
   if [ "$(id -u)" -ne 0 ]; then
     command -v sudo >/dev/null ||
       fail "not root and no sudo; as root run: apt-get install -y --no-install-recommends $(echo $missing)"
