@@ -45,7 +45,8 @@ build() {
   shift
   if [ ! -f "$tree/build.ninja" ]; then
     say "configuring $preset"
-    (cd "$root" && cmake --preset "$preset" >"${log:=$(mktemp)}" 2>&1) || { cat "$log" >&2; rm -f "$log"; fail "cmake failed"; }
+    log=$(mktemp)
+    (cd "$root" && cmake --preset "$preset" >"$log" 2>&1) || { cat "$log" >&2; rm -f "$log"; fail "cmake failed"; }
     rm -f "$log"
   fi
   # A dry run costs a tenth of a second and tells whether there is anything to say.
