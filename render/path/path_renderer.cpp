@@ -3,6 +3,7 @@
 
 #include <tbb/blocked_range2d.h>
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -28,8 +29,7 @@ public:
   PathRenderer(const RenderSettings& settings, int threads)
       : settings_(settings),
         filter_(settings.path.filter, settings.path.filter_radius),
-        threads_(std::max(threads, 1)),
-        arena_(threads_) {
+        arena_(std::clamp(threads, 1, tbb::info::default_concurrency())) {
     check_range("render.samples", settings.samples, 1, 65536);
     check_range("render.path.bounces", settings.path.bounces, 0, 64);
   }
@@ -39,7 +39,7 @@ public:
   void set_scene(const RenderScene& scene) override {
     check_scene(scene);
     scene_ = scene;
-    arena_.execute([&] { geometry_.emplace(scene_, threads_); });
+    arena_.execute([&] { geometry_.emplace(scene_); });
     shading_.emplace(scene_);
   }
 
@@ -74,7 +74,7 @@ public:
   }
 
   std::string description() const override {
-    return "path: " + (geometry_ ? geometry_->caster().description() : path::RayCaster(1).description());
+    return "path: " + (geometry_ ? geometry_->caster().description() : path::RayCaster().description());
   }
 
 private:
@@ -133,7 +133,6 @@ private:
 
   RenderSettings settings_;
   path::PixelFilter filter_;
-  int threads_;
   mutable tbb::task_arena arena_;
   RenderScene scene_;
   std::optional<path::SceneGeometry> geometry_;

@@ -124,8 +124,9 @@ struct RayCaster::Impl {
   }
 };
 
-RayCaster::RayCaster(int threads) : impl_(std::make_unique<Impl>()) {
-  impl_->device = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
+RayCaster::RayCaster() : impl_(std::make_unique<Impl>()) {
+  // Not "threads=": that would limit TBB in the whole process. Builds run where they are called, in an arena.
+  impl_->device = rtcNewDevice(nullptr);
   if (impl_->device == nullptr) {
     throw DeviceError("Embree gives no device: error " +
                       std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))));

@@ -29,7 +29,7 @@ enum class Coherence { coherent, incoherent };
 class RayCaster {
 public:
   /// Throws DeviceError when there is no Embree device.
-  explicit RayCaster(int threads);
+  RayCaster();
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;

@@ -30,8 +30,7 @@ Vec3 facing(const Vec3& n, const Vec3& wo) {
 
 }  // namespace
 
-SceneGeometry::SceneGeometry(const RenderScene& scene, int threads)
-    : ground_(scene.ground), caster_(threads) {
+SceneGeometry::SceneGeometry(const RenderScene& scene) : ground_(scene.ground) {
   meshes_.reserve(scene.meshes.size());
   for (const Mesh& m : scene.meshes) {
     meshes_.push_back(

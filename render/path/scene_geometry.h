@@ -22,7 +22,7 @@ struct SurfacePoint {
 class SceneGeometry {
 public:
   /// Throws DeviceError as RayCaster does. The scene is checked (check_scene).
-  SceneGeometry(const RenderScene&, int threads);
+  explicit SceneGeometry(const RenderScene&);
 
   void move(int mesh, std::span<const Vec3> positions);
   /// Makes the normals and the hierarchy follow what has moved.

@@ -100,8 +100,9 @@ TEST(PathRenderer, NoMaterialShinesInAFurnace) {
       scene.sky = uniform_sky(1.0F);
       scene.meshes = {make_sphere(4, 1.0F, Vec3::Zero())};
       scene.meshes[0].material = {Color::Ones(), roughness, metallic, 1.5F};
-      const Image image = draw(scene, camera, settings(32, 32, 1024));
-      for (const float v : image.find("color")->values) ASSERT_LT(v, 1.02F) << roughness << " " << metallic;
+      const Image image = draw(scene, camera, settings(32, 32, 256));
+      for (const float v : image.find("color")->values) ASSERT_LT(v, 1.05F) << roughness << " " << metallic;
+      EXPECT_LT(mean_color(image).maxCoeff(), 1.001) << roughness << " " << metallic;
       EXPECT_GT(mean_color(image).minCoeff(), 0.6) << roughness << " " << metallic;
     }
   }
@@ -260,7 +261,7 @@ TEST(PathRenderer, NothingLeaksIntoAClosedShell) {
     camera.position = Vec3(1.5F, 0.5F, 2.0F);
     camera.look_at = Vec3(0, 0, 0);
     camera.fov = 80.0F;
-    const Image image = draw(scene, camera, settings(64, 64, 64));
+    const Image image = draw(scene, camera, settings(64, 64, 16));
     for (const float v : image.find("color")->values) ASSERT_EQ(v, 0.0F) << smooth;
   }
 }
@@ -371,11 +372,11 @@ TEST(PathRenderer, NoiseFallsAtLeastAsTheReciprocalOfSamples) {
   scene.meshes = {make_sphere(3, 0.5F, Vec3(0, 0.5F, 0))};
   scene.lights = {AreaLight{}};
   CameraSettings camera;
-  const Image truth = draw(scene, camera, settings(48, 32, 4096), 1000);
+  const Image truth = draw(scene, camera, settings(24, 16, 4096), 1000);
   const auto error = [&](int samples) {
-    const Image image = draw(scene, camera, settings(48, 32, samples));
+    const Image image = draw(scene, camera, settings(24, 16, samples));
     double sum = 0.0;
-    for (std::size_t i = 0; i < 3 * 48 * 32; ++i) {
+    for (std::size_t i = 0; i < 3 * 24 * 16; ++i) {
       sum += std::pow(image.find("color")->values[i] - truth.find("color")->values[i], 2.0);
     }
     return sum;
@@ -501,7 +502,7 @@ TEST(PathRenderer, OrthographicViewsHaveNoPerspective) {
   RenderScene scene = empty_scene();
   scene.background = Color::Zero();
   scene.sky = uniform_sky(1.0F);
-  // Two quads of one size at different distances cover as many pixels: 16 x 16, edges on pixel borders.
+  // Two quads of one size at different distances cover as many pixels.
   scene.meshes = {make_quad(Vec3(-0.9F, -0.4F, 0.0F), Vec3(0.8F, 0, 0), Vec3(0, 0.8F, 0)),
                   make_quad(Vec3(0.1F, -0.4F, -5.0F), Vec3(0.8F, 0, 0), Vec3(0, 0.8F, 0))};
   for (Mesh& mesh : scene.meshes) mesh.material = lambert(Color::Ones());
@@ -510,10 +511,10 @@ TEST(PathRenderer, OrthographicViewsHaveNoPerspective) {
   camera.look_at = Vec3::Zero();
   camera.orthographic = 1.0F;
   const std::vector<float> values = draw(scene, camera, settings(40, 20, 16)).find("color")->values;
-  int left = 0, right = 0;
-  for (std::size_t i = 0; i < 800; ++i) (i % 40 < 20 ? left : right) += values[3 * i] > 0.5F ? 1 : 0;
-  EXPECT_EQ(left, 256);
-  EXPECT_EQ(right, 256);
+  double left = 0.0, right = 0.0;
+  for (std::size_t i = 0; i < 800; ++i) (i % 40 < 20 ? left : right) += values[3 * i];
+  EXPECT_NEAR(left, 256.0, 0.5);  // samples on the very edge
+  EXPECT_NEAR(right, 256.0, 0.5);
 }
 
 TEST(PathRenderer, ErrorsNameTheValue) {

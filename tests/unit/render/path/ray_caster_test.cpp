@@ -53,7 +53,7 @@ std::vector<Vec3> squashed(const Mesh& mesh, float amount) {
 TEST(RayCaster, MeetsWhatTryingAllTrianglesMeets) {
   RenderScene scene;
   scene.meshes = two_spheres();
-  SceneGeometry geometry(scene, 1);
+  SceneGeometry geometry(scene);
   for (const float amount : {0.0F, 0.3F}) {  // built, then refitted
     for (int k = 0; k < 2; ++k) {
       const auto i = static_cast<std::size_t>(k);
@@ -83,7 +83,7 @@ TEST(RayCaster, MeetsWhatTryingAllTrianglesMeets) {
 TEST(RayCaster, SomethingIsInTheWayBeforeTheDistanceOnly) {
   RenderScene scene;
   scene.meshes = two_spheres();
-  const SceneGeometry geometry(scene, 1);
+  const SceneGeometry geometry(scene);
   const std::vector<Ray> rays = random_rays(1001, 6);
   for (const double part : {0.999, 1.001}) {
     std::vector<float> distances;
@@ -102,7 +102,7 @@ TEST(RayCaster, SomethingIsInTheWayBeforeTheDistanceOnly) {
 TEST(RayCaster, ClosedMeshesLetNothingThrough) {
   RenderScene scene;
   scene.meshes = {make_sphere(5, 1.0F, Vec3(0.1F, 0.2F, 0.3F))};
-  const SceneGeometry geometry(scene, 1);
+  const SceneGeometry geometry(scene);
   // From inside towards edges, where a careless test leaks.
   std::vector<Ray> rays;
   const Mesh& m = scene.meshes[0];
@@ -125,7 +125,7 @@ TEST(RayCaster, NothingToMeet) {
   empty.name = "empty";
   RenderScene scene;
   scene.meshes = {empty};
-  SceneGeometry geometry(scene, 1);
+  SceneGeometry geometry(scene);
   geometry.move(0, {});
   geometry.commit();
   const std::vector<Ray> rays = random_rays(3, 7);

@@ -26,7 +26,7 @@ RenderScene with(const Mesh& mesh, bool ground = false) {
 }
 
 TEST(SceneGeometry, RaysGoOnFromTheSideOfTheirArrival) {
-  SceneGeometry geometry(with(make_quad(Vec3(-1, 0, 1), Vec3(2, 0, 0), Vec3(0, 0, -2))), 1);
+  SceneGeometry geometry(with(make_quad(Vec3(-1, 0, 1), Vec3(2, 0, 0), Vec3(0, 0, -2))));
   geometry.commit();
   const SurfacePoint above = surface(geometry, {Vec3(0.1F, 1.0F, 0.2F), Vec3(0, -1, 0)});
   EXPECT_EQ(above.normal, Vec3(0, 1, 0));
@@ -47,7 +47,7 @@ TEST(SceneGeometry, RaysDoNotMeetTheSurfaceTheyLeave) {
       const Vec3 u = n.cross(Vec3(1, 0, 0)).normalized();
       Mesh quad = make_quad(Vec3(far, -far, far) - size * (u + n.cross(u)), 2.0F * size * u,
                             2.0F * size * n.cross(u));
-      SceneGeometry geometry(with(quad), 1);
+      SceneGeometry geometry(with(quad));
       geometry.commit();
       std::vector<Ray> rays;
       for (int i = 0; i < 2000; ++i) {
@@ -66,7 +66,7 @@ TEST(SceneGeometry, RaysDoNotMeetTheSurfaceTheyLeave) {
 
 TEST(SceneGeometry, DistanceIsThatOfDoublePrecision) {
   const Mesh quad = make_quad(Vec3(-4, 0.3F, 4), Vec3(8, 0.7F, 0), Vec3(0.2F, 0, -8));
-  const SceneGeometry geometry(with(quad), 1);
+  const SceneGeometry geometry(with(quad));
   const Eigen::Vector3d n = Eigen::Vector3d(8, 0.7F, 0).cross(Eigen::Vector3d(0.2F, 0, -8));
   std::mt19937 random(4);
   std::uniform_real_distribution<float> uniform(-1.0F, 1.0F);
@@ -86,7 +86,7 @@ TEST(SceneGeometry, DistanceIsThatOfDoublePrecision) {
 
 TEST(SceneGeometry, ACoarseSphereContinuesOnItsSmoothSurface) {
   const float radius = 1.0F;
-  SceneGeometry geometry(with(make_sphere(1, radius, Vec3::Zero())), 1);
+  SceneGeometry geometry(with(make_sphere(1, radius, Vec3::Zero())));
   geometry.commit();
   std::mt19937 random(5);
   std::normal_distribution<float> normal;
@@ -111,7 +111,7 @@ TEST(SceneGeometry, ACoarseSphereContinuesOnItsSmoothSurface) {
 
 TEST(SceneGeometry, AHollowContinuesOnItsFacets) {
   // Seen from inside, the smooth surface lies behind the facets: rays start on these.
-  SceneGeometry geometry(with(make_sphere(1, 1.0F, Vec3::Zero())), 1);
+  SceneGeometry geometry(with(make_sphere(1, 1.0F, Vec3::Zero())));
   geometry.commit();
   const Ray ray{Vec3(0.1F, 0.05F, 0.0F), Vec3(0.3F, 0.9F, 0.2F).normalized()};
   MeshHit hit;
@@ -124,7 +124,7 @@ TEST(SceneGeometry, AHollowContinuesOnItsFacets) {
 TEST(SceneGeometry, FlatMeshesHaveTheNormalOfTheTriangle) {
   Mesh sphere = make_sphere(1, 1.0F, Vec3::Zero());
   sphere.smooth = false;
-  SceneGeometry geometry(with(sphere), 1);
+  SceneGeometry geometry(with(sphere));
   geometry.commit();
   const Ray ray{Vec3(0.2F, 3.0F, 0.1F), Vec3(0, -1, 0)};
   MeshHit hit;
@@ -141,7 +141,7 @@ TEST(SceneGeometry, GroundIsADiscSeenFromBothSides) {
   scene.ground.center = Vec3(1.0F, 9.0F, 2.0F);
   scene.ground.radius = 3.0F;
   scene.ground.fade_start = 1.0F;
-  const SceneGeometry geometry(scene, 1);
+  const SceneGeometry geometry(scene);
   const Vec3 down = Vec3(0.6F, -0.8F, 0.0F);
   EXPECT_NEAR(geometry.meet_ground({Vec3(0, 2.5F, 2), down}), 2.5, 1e-6);
   EXPECT_NEAR(geometry.meet_ground({Vec3(0, -1.5F, 2), Vec3(0.6F, 0.8F, 0.0F)}), 2.5, 1e-6);
@@ -157,7 +157,7 @@ TEST(SceneGeometry, GroundIsADiscSeenFromBothSides) {
 
 TEST(SceneGeometry, ABodyOnTheGroundSeesNothingThroughIt) {
   // A point of its underside, looking down: the ground is met at once.
-  SceneGeometry geometry(with(make_box(Vec3(-1, 0, -1), Vec3(1, 1, 1)), true), 1);
+  SceneGeometry geometry(with(make_box(Vec3(-1, 0, -1), Vec3(1, 1, 1)), true));
   geometry.commit();
   const Ray from_below{Vec3(0.3F, -1.0F, 0.2F), Vec3(0, 1, 0)};
   MeshHit hit;
