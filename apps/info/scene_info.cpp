@@ -79,6 +79,7 @@ void add_pictures(Report& report, const SceneDesc& scene) {
 
 void add_disk(Report& report, const SceneDesc& scene, const sim::Model& model) {
   std::vector<FrameJob> jobs;
+  jobs.reserve(static_cast<std::size_t>(scene.time.frames));
   for (int frame = 0; frame < scene.time.frames; ++frame) {
     jobs.push_back({.frame = frame, .simulate = true, .draw = true});
   }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "render/color.h"
+#include "render/path/filter.h"
 #include "render/renderer.h"
 #include "sim/integrator.h"
 #include "sim/materials/table.h"
@@ -17,7 +18,6 @@ constexpr const char* pascal = "Pa";
 
 std::vector<std::string> mass_choices() { return {"consistent", "lumped"}; }
 std::vector<std::string> hessian_choices() { return {"auto", "projected"}; }
-std::vector<std::string> filter_choices() { return {"box", "gaussian", "blackman_harris"}; }
 
 void visit_time(sim::TimeSettings& t, KeyVisitor& v) {
   v.key({.name = "fps",
@@ -282,7 +282,8 @@ void visit_path(render::PathSettings& p, KeyVisitor& v) {
   v.key({.name = "bounces", .bounds = between(0, 64), .meaning = "indirect bounces after the first hit"},
         &p.bounces);
   v.key({.name = "seed", .meaning = "of the sample sequence"}, &p.seed);
-  v.key({.name = "filter", .meaning = "pixel reconstruction", .choices = filter_choices}, &p.filter);
+  v.key({.name = "filter", .meaning = "pixel reconstruction", .choices = render::path::filter_names},
+        &p.filter);
   v.key({.name = "filter_radius",
          .unit = "pixels",
          .bounds = above_up_to(0, 4),
@@ -371,7 +372,7 @@ std::string Bounds::text() const {
 }
 
 std::string valid_numbers(const Key& k) {
-  const std::string bounds = k.bounds.text();
+  std::string bounds = k.bounds.text();
   if (k.rule == nullptr) return bounds;
   return bounds.empty() ? k.rule : fmt::format("{}, {}", bounds, k.rule);
 }

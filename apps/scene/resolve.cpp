@@ -84,12 +84,12 @@ void check_looks(const SceneDesc& scene, const Places& places) {
   for (std::size_t i = 0; i < scene.light.size(); ++i) {
     if (scene.light[i].position != scene.light[i].look_at) continue;
     const std::string path = fmt::format("light.{}", i);
-    const std::string key = path + (places.has(path + ".look_at") ? ".look_at" : ".position");
+    std::string key = path + ".look_at";
+    if (!places.has(key)) key = path + ".position";
     wrong_input(fmt::format("{}{}.position and {}.look_at are the same point", places.of(key), path, path));
   }
   std::set<std::string> channels;
-  for (std::size_t i = 0; i < scene.render.channels.size(); ++i) {
-    const std::string& channel = scene.render.channels[i];
+  for (const std::string& channel : scene.render.channels) {
     if (!channels.insert(channel).second) {
       wrong_input(fmt::format("{}render.channels has '{}' twice", places.of("render.channels"), channel));
     }
