@@ -1,0 +1,56 @@
+#include "apps/progress/progress.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace lagomorph::apps {
+namespace {
+
+std::string said(bool quiet, const auto& what) {
+  testing::internal::CaptureStderr();
+  {
+    Progress progress(quiet);
+    what(progress);
+  }
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST(Progress, IsPlainLinesWhereNoTerminalIs) {
+  const std::string text = said(false, [](Progress& progress) {
+    progress.note("a\nb");
+    progress.begin(150);
+    for (int i = 0; i < 150; ++i) progress.frame_done();
+    progress.end();
+  });
+  EXPECT_TRUE(text.starts_with("a\\nb\n")) << text;
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 11) << "a line at every tenth";
+  EXPECT_NE(text.find("\nframe 15 of 150, "), std::string::npos);
+  EXPECT_NE(text.find("\nframe 150 of 150, "), std::string::npos);
+  EXPECT_EQ(text.find('\r'), std::string::npos);
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+}
+
+TEST(Progress, IsSilentWhenQuiet) {
+  EXPECT_EQ(said(true,
+                 [](Progress& progress) {
+                   progress.note("a");
+                   progress.begin(2);
+                   progress.frame_done();
+                   progress.frame_done();
+                   progress.end();
+                 }),
+            "");
+}
+
+TEST(Progress, Durations) {
+  EXPECT_EQ(duration_text(0.0), "0.0 s");
+  EXPECT_EQ(duration_text(9.94), "9.9 s");
+  EXPECT_EQ(duration_text(12.4), "12 s");
+  EXPECT_EQ(duration_text(125.0), "2:05");
+  EXPECT_EQ(duration_text(3850.0), "1:04:10");
+  EXPECT_EQ(duration_text(-1.0), "0.0 s");
+}
+
+}  // namespace
+}  // namespace lagomorph::apps

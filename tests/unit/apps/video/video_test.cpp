@@ -1,0 +1,161 @@
+#include "apps/video/video.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "apps/error.h"
+#include "apps/file_io.h"
+#include "apps/run/paths.h"
+#include "apps/video/process.h"
+#include "render/color.h"
+#include "render/png.h"
+#include "tests/support/program.h"
+#include "tests/support/run_tree.h"
+#include "tests/support/temporary_directory.h"
+
+namespace lagomorph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+const auto never = [] { return false; };
+
+bool has_ffmpeg() { return run_process({"ffmpeg", "-version"}, never).found; }
+
+/// Pictures first..last, each of one colour that tells its number.
+VideoJob job_of(const tests::TemporaryDirectory& dir, const std::string& folder, int first, int last,
+                int width, int height) {
+  make_folder(dir.path() / folder);
+  for (int frame = first; frame <= last; ++frame) {
+    render::Picture picture{width, height, {}};
+    for (int i = 0; i < width * height; ++i) {
+      for (const int value : {40 * frame, 200, 100}) picture.rgb.push_back(static_cast<std::uint8_t>(value));
+    }
+    write_file(dir.path() / folder / frame_file(frame, ".png"), render::encode_png(picture, 1));
+  }
+  return {dir.path() / folder, first, last, 12.5, width, height, dir.path() / "video.mp4"};
+}
+
+/// What ffprobe says of the video, as one text of key=value words.
+std::string probe(const fs::path& video, const fs::path& folder) {
+  const fs::path out = folder / "probe";
+  const std::string keys =
+      "stream=codec_name,pix_fmt,width,height,nb_frames,r_frame_rate,color_space,color_range";
+  run_process(
+      {"sh", "-c",
+       shell_text({"ffprobe", "-v", "error", "-show_entries", keys, "-of", "default=nw=1", video.string()}) +
+           " > " + shell_text({out.string()})},
+      never);
+  std::string text = tests::file_contents(out);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+TEST(Video, IsWhatPlayersTake) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not on the PATH";
+  const tests::TemporaryDirectory dir;
+  const VideoJob job = job_of(dir, "frames", 2, 5, 64, 48);
+  ASSERT_TRUE(make_video(job, never));
+  const std::string text = probe(job.output, dir.path());
+  for (const char* fact : {"codec_name=h264", "pix_fmt=yuv420p", "width=64", "height=48", "nb_frames=4",
+                           "r_frame_rate=25/2", "color_space=bt709", "color_range=tv"}) {
+    EXPECT_NE(text.find(fact), std::string::npos) << fact << " is not in " << text;
+  }
+  const std::string bytes = tests::file_contents(job.output);
+  EXPECT_LT(bytes.find("moov"), bytes.find("mdat")) << "faststart";
+  ASSERT_TRUE(make_video(job, never));
+  EXPECT_TRUE(tests::file_contents(job.output) == bytes) << "the same pictures give the same bytes";
+  EXPECT_EQ(tests::count_files(dir.path()), 2) << "nothing is left beside the video and the probe's text";
+}
+
+TEST(Video, KeepsTheColours) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not on the PATH";
+  const tests::TemporaryDirectory dir;
+  const VideoJob job = job_of(dir, "frames", 3, 3, 64, 48);
+  ASSERT_TRUE(make_video(job, never));
+  const fs::path raw = dir.path() / "raw";
+  run_process(
+      {"ffmpeg", "-v", "error", "-i", job.output.string(), "-vf", "scale=in_color_matrix=bt709:in_range=tv",
+       "-f", "rawvideo", "-pix_fmt", "rgb24", raw.string()},
+      never);
+  const std::string bytes = tests::file_contents(raw);
+  ASSERT_EQ(bytes.size(), 64U * 48U * 3U);
+  const std::array expected = {120, 200, 100};
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(static_cast<unsigned char>(bytes[3 * (24 * 64 + 32) + c]), expected[c], 3) << c;
+  }
+}
+
+TEST(Video, OddSidesGetOneMoreLine) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not on the PATH";
+  const tests::TemporaryDirectory dir;
+  for (const auto& [width, height, expected] : {std::tuple(33, 25, "width=34 height=26"),
+                                                {33, 24, "width=34 height=24"},
+                                                {1, 1, "width=2 height=2"}}) {
+    const VideoJob job = job_of(dir, "frames", 0, 1, width, height);
+    ASSERT_TRUE(make_video(job, never));
+    EXPECT_NE(probe(job.output, dir.path()).find(expected), std::string::npos) << expected;
+  }
+}
+
+TEST(Video, FolderNamesAreNoPatterns) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not on the PATH";
+  const tests::TemporaryDirectory dir;
+  EXPECT_TRUE(make_video(job_of(dir, "100% %d: [a] 'b' *", 0, 1, 16, 16), never));
+  const fs::path before = fs::current_path();
+  fs::current_path(dir.path());
+  VideoJob job = job_of(dir, "plain", 0, 1, 16, 16);
+  job.pictures = "plain";
+  job.output = "-dash:colon%d.mp4";
+  EXPECT_TRUE(make_video(job, never));
+  fs::current_path(before);
+  EXPECT_TRUE(fs::exists(dir.path() / job.output));
+}
+
+TEST(Video, AFailureTellsTheCommandToRunLater) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not on the PATH";
+  const tests::TemporaryDirectory dir;
+  VideoJob job = job_of(dir, "frames", 0, 1, 16, 16);
+  job.first = 8;
+  try {
+    make_video(job, never);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status, ExitStatus::machine);
+    const std::string text = error.what();
+    EXPECT_NE(text.find("No such file or directory"), std::string::npos) << text;
+    EXPECT_TRUE(text.ends_with("make the video later with: " + shell_text(ffmpeg_command(job)))) << text;
+  }
+  EXPECT_EQ(tests::count_files(dir.path()), 0);
+}
+
+TEST(Video, WithoutFfmpegTheMessageSaysSo) {
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", "/nowhere", 1);
+  std::string text;
+  try {
+    make_video({"frames", 0, 4, 30.0, 64, 48, "x.mp4"}, never);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status, ExitStatus::machine);
+    text = error.what();
+  }
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_TRUE(text.starts_with("--video: ffmpeg is not on the PATH; the pictures are there")) << text;
+  EXPECT_TRUE(text.ends_with(" x.mp4")) << text;
+}
+
+TEST(Video, StopsWhenAsked) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not on the PATH";
+  const tests::TemporaryDirectory dir;
+  EXPECT_FALSE(make_video(job_of(dir, "frames", 0, 1, 512, 512), [] { return true; }));
+  EXPECT_EQ(tests::count_files(dir.path()), 0);
+}
+
+}  // namespace
+}  // namespace lagomorph::apps
