@@ -25,9 +25,13 @@ std::string encode_channel(const render::Image& image, const render::Channel& ch
 }  // namespace
 
 FrameWriter::FrameWriter(const RunPaths& paths, const Identity& identity,
-                         const render::RenderSettings& settings, const std::map<int, FrameRecord>& records)
+                         const render::RenderSettings& settings, const std::map<int, FrameRecord>& records,
+                         bool draws)
     : paths_(paths), identity_(identity), settings_(settings), records_(records) {
-  for (const auto& folder : {paths.states(), paths.pictures(), paths.records()}) make_folder(folder);
+  make_folder(paths.states());
+  make_folder(paths.records());
+  if (!draws) return;
+  make_folder(paths.pictures());
   for (const std::string& channel : settings.channels) make_folder(paths.channel(channel));
 }
 

@@ -16,7 +16,7 @@ class FrameWriter {
 public:
   /// `records` are those of the frames that are there. Makes the folders.
   FrameWriter(const RunPaths&, const Identity&, const render::RenderSettings&,
-              const std::map<int, FrameRecord>& records);
+              const std::map<int, FrameRecord>& records, bool draws);
 
   void write(const DrawnFrame&) const;
 

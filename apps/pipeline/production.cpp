@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -72,7 +73,8 @@ void take_folder(Production& p) {
   make_folder(p.paths.root());
   p.lock.emplace(p.paths.root());
   p.lock->take(RunLock::Kind::exclusive);
-  if (!fs::exists(p.paths.run_json())) return;
+  std::error_code unused;
+  if (!fs::exists(p.paths.run_json(), unused)) return;
   throw Error(ExitStatus::wrong_input,
               p.paths.root().string() + ": another lagomorph began this run meanwhile");
 }
@@ -105,8 +107,10 @@ std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress
   const ExpectedSize size =
       expected_size(p.jobs, model.mesh().vertex_count(), 1 + integrator->history_levels(), p.scene.render);
   require_space(p.paths.root(), size);
-  progress.note(fmt::format("{}: {} {} to make, about {}", p.paths.root().string(), p.jobs.size(),
-                            p.jobs.size() == 1 ? "frame" : "frames", size_text(size.estimate)));
+  if (!p.jobs.empty()) {
+    progress.note(fmt::format("{}: {} {} to make, about {}", p.paths.root().string(), p.jobs.size(),
+                              p.jobs.size() == 1 ? "frame" : "frames", size_text(size.estimate)));
+  }
   info.about["mesh"] = mesh_sizes(model, surfaces);
   if (stop_asked()) return std::nullopt;
 
@@ -147,7 +151,8 @@ std::map<int, FrameRecord> gather_after(const Production& p, const RunInfo& info
 ExitStatus make_all(Production& p, RunResult& result, Progress& progress) {
   RunInfo info = new_info(p);
   std::optional<PipelineResult> made;
-  if (!p.jobs.empty()) {
+  std::error_code unused;
+  if (!p.jobs.empty() || !fs::exists(p.paths.mesh(), unused)) {
     made = make_frames(p, info, progress);
     if (!made) return stop_status();
   } else {
