@@ -27,7 +27,7 @@ TEST_F(RenderCommand, AgainHasNothingToDo) {
   const auto before = tree(at("r"));
   const Ended ended = run_program({"render", at("r").string()});
   EXPECT_EQ(ended.status, 0);
-  EXPECT_EQ(ended.error, at("r").string() + ": nothing to do: 4 frames are there and match\n");
+  EXPECT_EQ(ended.err, at("r").string() + ": nothing to do: 4 frames are there and match\n");
   EXPECT_EQ(tree(at("r")), before);
 }
 
@@ -130,7 +130,7 @@ TEST_F(RenderCommand, SeveralShareTheFrames) {
         c(render("r", {"--frames", "8..11"}));
     for (Program* program : {&a, &b, &c}) {
       const Ended ended = program->wait();
-      EXPECT_EQ(ended.status, 0) << ended.error;
+      EXPECT_EQ(ended.status, 0) << ended.err;
     }
   }
   expect(0, run("whole", {"--set", "time.frames=12"}));

@@ -112,8 +112,8 @@ TEST_P(Interrupt, LeavesWholeRecordsAndSaysHowToGoOn) {
   program.signal(GetParam());
   const Ended ended = program.wait();
   EXPECT_EQ(ended.status, 128 + GetParam());
-  EXPECT_TRUE(ended.error.starts_with("lagomorph: interrupted with ")) << ended.error;
-  EXPECT_NE(ended.error.find("the same command goes on"), std::string::npos) << ended.error;
+  EXPECT_TRUE(ended.err.starts_with("lagomorph: interrupted with ")) << ended.err;
+  EXPECT_NE(ended.err.find("the same command goes on"), std::string::npos) << ended.err;
   const auto files = tree(at("r"));
   const nlohmann::json frames = run_json("r").at("frames");
   EXPECT_GE(frames.size(), 4U);

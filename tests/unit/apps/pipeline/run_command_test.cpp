@@ -148,9 +148,9 @@ TEST_F(RunCommand, SaysWhatItDoesOnStderrOnly) {
   EXPECT_EQ(ended.out, "");
   for (const char* part : {"bar.msh: 63 vertices, 144 tets, 0.2 x 0.6 x 0.2 m", "4 frames to make, about ",
                            "frame 4 of 4, ", "4 states simulated", "4 pictures drawn"}) {
-    EXPECT_NE(ended.error.find(part), std::string::npos) << part << " is not in " << ended.error;
+    EXPECT_NE(ended.err.find(part), std::string::npos) << part << " is not in " << ended.err;
   }
-  EXPECT_EQ(ended.error.find('\r'), std::string::npos);
+  EXPECT_EQ(ended.err.find('\r'), std::string::npos);
 }
 
 TEST_F(RunCommand, JsonIsTheResultAndNothingElse) {

@@ -42,12 +42,12 @@ protected:
   /// Runs the program, expects the status, and gives what it said on stderr.
   static std::string expect(int status, const Arguments& arguments, const ProgramOptions& options = {}) {
     const Ended ended = run_program(arguments, options);
-    EXPECT_EQ(ended.status, status) << ended.error;
+    EXPECT_EQ(ended.status, status) << ended.err;
     if (status != 0) {
-      EXPECT_EQ(std::count(ended.error.begin(), ended.error.end(), '\n'), 1) << ended.error;
+      EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
       EXPECT_EQ(ended.out, "");
     }
-    return ended.error;
+    return ended.err;
   }
 
   nlohmann::json run_json(const std::string& run) const {
