@@ -25,7 +25,7 @@
 /// Drives the built program as a script would.
 namespace lagomorph::tests {
 
-inline std::string file_contents(const std::filesystem::path& file) {
+inline std::string read_all(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -103,8 +103,8 @@ public:
     int status = 0;
     ::waitpid(pid_, &status, 0);
     pid_ = -1;
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), file_contents(folder_ / "out"),
-            file_contents(folder_ / "err")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_all(folder_ / "out"),
+            read_all(folder_ / "err")};
   }
 
 private:

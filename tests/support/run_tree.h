@@ -21,7 +21,7 @@ inline std::map<std::string, std::string> tree(const std::filesystem::path& fold
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (!entry.is_regular_file()) continue;
-    std::string contents = file_contents(entry.path());
+    std::string contents = read_all(entry.path());
     if (entry.path().extension() == ".json") {
       nlohmann::json json = nlohmann::json::parse(contents);
       json.erase("seconds");

@@ -17,7 +17,7 @@ namespace lagomorph::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using tests::file_contents;
+using tests::read_all;
 using tests::TemporaryDirectory;
 
 /// Status and message of the Error that the action must throw.
@@ -41,9 +41,9 @@ TEST(FileIo, WritesWholeFilesAndLeavesNothingElse) {
   const TemporaryDirectory dir;
   const std::string bytes("a\0b\n", 4);
   write_file(dir.path() / "a", bytes);
-  EXPECT_EQ(file_contents(dir.path() / "a"), bytes);
+  EXPECT_EQ(read_all(dir.path() / "a"), bytes);
   write_file(dir.path() / "a", "second", Durable::yes);
-  EXPECT_EQ(file_contents(dir.path() / "a"), "second");
+  EXPECT_EQ(read_all(dir.path() / "a"), "second");
   EXPECT_EQ(read_file(dir.path() / "a"), "second");
   EXPECT_EQ(files_in(dir.path()), 1);
 }
@@ -55,7 +55,7 @@ TEST(FileIo, WritesIntoTheCurrentFolder) {
   write_file("plain", "x", Durable::yes);
   make_folder("a/b/");
   fs::current_path(before);
-  EXPECT_EQ(file_contents(dir.path() / "plain"), "x");
+  EXPECT_EQ(read_all(dir.path() / "plain"), "x");
   EXPECT_TRUE(fs::is_directory(dir.path() / "a" / "b"));
 }
 
@@ -77,7 +77,7 @@ TEST(FileIo, LeavesAFileWithTheSameBytesAlone) {
   ASSERT_EQ(::stat(file.c_str(), &after), 0);
   EXPECT_EQ(before.st_ino, after.st_ino);
   EXPECT_TRUE(write_file_if_changed(file, "two"));
-  EXPECT_EQ(file_contents(file), "two");
+  EXPECT_EQ(read_all(file), "two");
 }
 
 TEST(FileIo, AFileInTheWayIsWrongInput) {
@@ -119,7 +119,7 @@ TEST(FileIo, AWriteThatFailsLeavesTheOldFileAndNoOther) {
   ::setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
   EXPECT_EQ(error, std::pair(ExitStatus::machine, file.string() + ": cannot be written: File too large"));
-  EXPECT_EQ(file_contents(file), "old");
+  EXPECT_EQ(read_all(file), "old");
   EXPECT_EQ(files_in(dir.path()), 1);
 }
 
@@ -128,9 +128,9 @@ TEST(FileIo, LinksReplaceAndKeepTheOriginal) {
   const fs::path from = dir.write("from", "bytes"), to = dir.write("to", "other");
   link_file(from, to);
   link_file(from, to);  // once more, where both are the same file already
-  EXPECT_EQ(file_contents(to), "bytes");
+  EXPECT_EQ(read_all(to), "bytes");
   write_file(to, "new");
-  EXPECT_EQ(file_contents(from), "bytes");
+  EXPECT_EQ(read_all(from), "bytes");
   EXPECT_EQ(files_in(dir.path()), 2);
 }
 
@@ -138,7 +138,7 @@ TEST(FileIo, LinksAcrossFileSystemsAreCopies) {
   const TemporaryDirectory dir;
   const fs::path from = "/proc/self/mountinfo";
   link_file(from, dir.path() / "to");
-  EXPECT_FALSE(file_contents(dir.path() / "to").empty());
+  EXPECT_FALSE(read_all(dir.path() / "to").empty());
 }
 
 TEST(FileIo, RemovesLeftoversAndNothingElse) {

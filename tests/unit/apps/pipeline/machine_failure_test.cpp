@@ -102,7 +102,7 @@ TEST_F(MachineFailure, WithoutFfmpegThePicturesAreKept) {
 TEST_F(MachineFailure, TheVideoIsMadeOnceAndWhenPicturesChange) {
   if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not on the PATH";
   expect(0, run("r", {"--video"}));
-  const std::string video = file_contents(at("r") / "bar.mp4");
+  const std::string video = read_all(at("r") / "bar.mp4");
   const auto made = fs::last_write_time(at("r") / "bar.mp4");
   EXPECT_EQ(run_json("r").at("video").at("file"), "bar.mp4");
   expect(0, run("r", {"--video"}));
@@ -110,10 +110,10 @@ TEST_F(MachineFailure, TheVideoIsMadeOnceAndWhenPicturesChange) {
   EXPECT_EQ(fs::last_write_time(at("r") / "bar.mp4"), made);
   fs::remove(at("r") / "bar.mp4");
   expect(0, run("r", {"--video"}));
-  EXPECT_EQ(file_contents(at("r") / "bar.mp4"), video);
+  EXPECT_EQ(read_all(at("r") / "bar.mp4"), video);
   expect(0, run("r", {"--video", "--set", "name=beam"}));
   EXPECT_FALSE(fs::exists(at("r") / "bar.mp4"));
-  EXPECT_EQ(file_contents(at("r") / "beam.mp4"), video);
+  EXPECT_EQ(read_all(at("r") / "beam.mp4"), video);
   expect(0, run("r", {"--force", "--backend", "raster"}));
   EXPECT_FALSE(fs::exists(at("r") / "beam.mp4")) << "a video of pictures that are gone";
 }

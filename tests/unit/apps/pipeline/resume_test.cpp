@@ -90,7 +90,7 @@ TEST_F(Resume, AfterAKilledForce) {
   expect(0, run("r", eight + Arguments{"--set", "camera.fov=20"}));
   Program program(run("r", eight + Arguments{"--force"}));
   ASSERT_TRUE(program.wait_until([&] {
-    return file_contents(at("r") / "run.json") != "" && run_json("r")["scene"]["camera"]["fov"] == 35.0 &&
+    return read_all(at("r") / "run.json") != "" && run_json("r")["scene"]["camera"]["fov"] == 35.0 &&
            fs::exists(at("r") / "frames/frame_0001.png");
   }));
   program.signal(SIGKILL);

@@ -77,7 +77,7 @@ TEST_F(RunCommand, Frame0IsTheInitialState) {
   expect(0, simulate("r"));
   sim::Remarks remarks;
   const sim::TetMesh mesh = sim::read_tet_mesh(data_file("run/bar.msh"), remarks);
-  const auto state = apps::read_npy(file_contents(at("r") / "states/frame_0000.npy"), "state").values;
+  const auto state = apps::read_npy(read_all(at("r") / "states/frame_0000.npy"), "state").values;
   ASSERT_EQ(state.size(), 6U * 63U);
   for (int i = 0; i < 63; ++i) {
     for (int axis = 0; axis < 3; ++axis)
@@ -91,7 +91,7 @@ TEST_F(RunCommand, TheMeshIsInTheOrderOfTheStates) {
   expect(0, simulate("r", {"--set", "body.0.translate=[0, 1, 0]"}));
   sim::Remarks remarks;
   const sim::TetMesh mesh = sim::read_tet_mesh(at("r") / "mesh.msh", remarks);
-  const auto state = apps::read_npy(file_contents(at("r") / "states/frame_0000.npy"), "state").values;
+  const auto state = apps::read_npy(read_all(at("r") / "states/frame_0000.npy"), "state").values;
   for (int i = 0; i < 63; ++i) {
     for (int axis = 0; axis < 3; ++axis)
       EXPECT_EQ(state[static_cast<std::size_t>(3 * i + axis)], mesh.X(i, axis));
@@ -101,7 +101,7 @@ TEST_F(RunCommand, TheMeshIsInTheOrderOfTheStates) {
 
 TEST_F(RunCommand, EnergyHasTheColumnsOfTheContract) {
   expect(0, simulate("r"));
-  std::istringstream lines(file_contents(at("r") / "energy.csv"));
+  std::istringstream lines(read_all(at("r") / "energy.csv"));
   std::string line;
   std::getline(lines, line);
   EXPECT_TRUE(line.starts_with("frame,time,kinetic,elastic,gravitational,total,")) << line;
@@ -175,7 +175,7 @@ TEST_F(RunCommand, FramesAreStatesToTheLastAndPicturesOfThese) {
   EXPECT_EQ(count_files(at("r") / "frames"), 2);
   EXPECT_FALSE(fs::exists(at("r") / "frames/frame_0000.png"));
   EXPECT_EQ(run_json("r").at("frames").size(), 3U);
-  const std::string energy = file_contents(at("r") / "energy.csv");
+  const std::string energy = read_all(at("r") / "energy.csv");
   EXPECT_EQ(std::count(energy.begin(), energy.end(), '\n'), 4);
   expect(0, run("r", {"--frames", "0"}));
   EXPECT_EQ(count_files(at("r") / "states"), 3);
@@ -212,7 +212,7 @@ TEST_F(RunCommand, AFileInThePlaceOfTheRunIsWrongInput) {
   dir_.write("r", "mine");
   expect(2, run("r"));
   expect(2, run("r/below"));
-  EXPECT_EQ(file_contents(at("r")), "mine");
+  EXPECT_EQ(read_all(at("r")), "mine");
 }
 
 TEST_F(RunCommand, AFolderOfOthersIsNotTouched) {

@@ -51,7 +51,7 @@ protected:
   }
 
   nlohmann::json run_json(const std::string& run) const {
-    return nlohmann::json::parse(file_contents(at(run) / "run.json"));
+    return nlohmann::json::parse(read_all(at(run) / "run.json"));
   }
 
   TemporaryDirectory dir_;

@@ -14,7 +14,7 @@ namespace lagomorph::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using tests::file_contents;
+using tests::read_all;
 
 TEST(Gather, TellsOfRecordsThatMatch) {
   const tests::TemporaryDirectory dir;
@@ -32,7 +32,7 @@ TEST(Gather, TellsOfRecordsThatMatch) {
   EXPECT_FALSE(frames.at(1).picture.has_value());
   EXPECT_TRUE(frames.contains(4));
 
-  const auto json = nlohmann::json::parse(file_contents(paths.run_json()));
+  const auto json = nlohmann::json::parse(read_all(paths.run_json()));
   EXPECT_EQ(json.at("name"), "bar");
   EXPECT_EQ(json.at("hashes").at("simulation"), some_identity().simulation_hash());
   EXPECT_EQ(json.at("hashes").at("picture"), some_identity().picture_hash());
@@ -49,7 +49,7 @@ TEST(Gather, EnergyHasARowAFrameWithSeventeenDigits) {
   RunInfo info;
   info.identity = some_identity();
   gather(paths, info, 2);
-  EXPECT_EQ(file_contents(paths.energy()),
+  EXPECT_EQ(read_all(paths.energy()),
             "frame,time,kinetic,elastic,gravitational,total,mass,momentum_x,momentum_y,momentum_z,newton_"
             "iterations,"
             "residual\n"
@@ -76,7 +76,7 @@ TEST(RunJson, ReadsBack) {
   EXPECT_EQ(read->about, info.about);
   ASSERT_TRUE(read->video.has_value());
   EXPECT_EQ(read->video->source, "source");
-  EXPECT_EQ(run_json_text(*read, {{0, some_record(0)}}), file_contents(paths.run_json()));
+  EXPECT_EQ(run_json_text(*read, {{0, some_record(0)}}), read_all(paths.run_json()));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace lagomorph::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using tests::file_contents;
+using tests::read_all;
 
 /// A scene with files of one name in two folders, a TetGen pair and a fine mesh. Files need only be there.
 fs::path write_scene(const tests::TemporaryDirectory& dir) {
@@ -51,12 +51,12 @@ TEST(Inputs, TheRunHoldsWhatItNames) {
   dir.write("run/inputs/old.msh", "of a scene before");
   write_inputs(scene, paths);
   EXPECT_EQ(tests::count_files(paths.inputs()), 5);
-  EXPECT_EQ(file_contents(paths.inputs() / "pair.ele"), "elements");
+  EXPECT_EQ(read_all(paths.inputs() / "pair.ele"), "elements");
   fs::remove_all(dir.path() / "meshes");
 
   const SceneDesc again = load_scene(paths.scene(), {});
-  EXPECT_EQ(file_contents(again.directory / again.body[0].mesh), "first");
-  EXPECT_EQ(file_contents(again.directory / again.body[1].mesh), "second");
+  EXPECT_EQ(read_all(again.directory / again.body[0].mesh), "first");
+  EXPECT_EQ(read_all(again.directory / again.body[1].mesh), "second");
 }
 
 TEST(Inputs, ASceneThatStandsInTheRunIsTheSame) {

@@ -52,7 +52,7 @@ std::string probe(const fs::path& video, const fs::path& folder) {
        shell_text({"ffprobe", "-v", "error", "-show_entries", keys, "-of", "default=nw=1", video.string()}) +
            " > " + shell_text({out.string()})},
       never);
-  std::string text = tests::file_contents(out);
+  std::string text = tests::read_all(out);
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
 }
@@ -67,10 +67,10 @@ TEST(Video, IsWhatPlayersTake) {
                            "r_frame_rate=25/2", "color_space=bt709", "color_range=tv"}) {
     EXPECT_NE(text.find(fact), std::string::npos) << fact << " is not in " << text;
   }
-  const std::string bytes = tests::file_contents(job.output);
+  const std::string bytes = tests::read_all(job.output);
   EXPECT_LT(bytes.find("moov"), bytes.find("mdat")) << "faststart";
   ASSERT_TRUE(make_video(job, never));
-  EXPECT_TRUE(tests::file_contents(job.output) == bytes) << "the same pictures give the same bytes";
+  EXPECT_TRUE(tests::read_all(job.output) == bytes) << "the same pictures give the same bytes";
   EXPECT_EQ(tests::count_files(dir.path()), 2) << "nothing is left beside the video and the probe's text";
 }
 
@@ -84,7 +84,7 @@ TEST(Video, KeepsTheColours) {
       {"ffmpeg", "-v", "error", "-i", job.output.string(), "-vf", "scale=in_color_matrix=bt709:in_range=tv",
        "-f", "rawvideo", "-pix_fmt", "rgb24", raw.string()},
       never);
-  const std::string bytes = tests::file_contents(raw);
+  const std::string bytes = tests::read_all(raw);
   ASSERT_EQ(bytes.size(), 64U * 48U * 3U);
   const std::array expected = {120, 200, 100};
   for (std::size_t c = 0; c < 3; ++c) {
