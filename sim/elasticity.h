@@ -59,8 +59,10 @@ public:
     std::vector<double>& matrices = H.scratch();
     matrices.resize(TetGather::kMatrixSize * elements_.size());
     for_each_element(kDear, [&](std::size_t j) {
-      Mat9 h = elements_[j].volume * materials_[j].d2psi_dF2(F(j, q));
-      if (kind == HessianKind::projected) project_to_psd(h);
+      const Mat3 F_j = F(j, q);
+      const bool exact = kind == HessianKind::exact;
+      const Mat9 h = elements_[j].volume *
+                     (exact ? materials_[j].d2psi_dF2(F_j) : materials_[j].projected_d2psi_dF2(F_j));
       element_blocks(h, elements_[j].D123, matrices.data() + TetGather::kMatrixSize * j);
     });
     gather_.add_matrices(matrices, scale, H);

@@ -1,7 +1,5 @@
 #include "sim/element_matrix.h"
 
-#include <Eigen/Eigenvalues>
-
 #include "sim/tet_gather.h"
 
 namespace lagomorph::sim {
@@ -19,13 +17,6 @@ void element_blocks(const Mat9& h, const Mat3& D123, double* blocks) {
   block(0, 2) = -(block(1, 2) + block(2, 2) + block(2, 3).transpose());
   block(0, 3) = -(block(1, 3) + block(2, 3) + block(3, 3));
   block(0, 0) = -(block(0, 1) + block(0, 2) + block(0, 3));
-}
-
-void project_to_psd(Mat9& h) {
-  const Eigen::SelfAdjointEigenSolver<Mat9> eigen(h);
-  if (eigen.eigenvalues()[0] >= 0.0) return;
-  const Mat9& U = eigen.eigenvectors();
-  h = U * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * U.transpose();
 }
 
 }  // namespace lagomorph::sim

@@ -9,7 +9,4 @@ namespace lagomorph::sim {
 /// sum, so its blocks are minus sums of the others'.
 void element_blocks(const Mat9& h, const Mat3& D123, double* blocks);
 
-/// Replaces a symmetric matrix by the nearest positive semi-definite one: negative eigenvalues become zero.
-void project_to_psd(Mat9& h);
-
 }  // namespace lagomorph::sim

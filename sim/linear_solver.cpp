@@ -65,6 +65,11 @@ struct LinearSolver::Implementation {
     common.print = 0;  // a matrix that is not positive definite is told by a status, not on stderr
     common.error_handler = nullptr;
     common.quick_return_if_not_posdef = 1;
+    // Three coordinates a vertex: supernodes of twice CHOLMOD's widths are merged though it adds zeros; 5 to
+    // 8 % faster.
+    common.nrelax[0] = 8;
+    common.nrelax[1] = 32;
+    common.nrelax[2] = 96;
   }
   ~Implementation() {
     free_factors();

@@ -25,7 +25,8 @@ void check(const SolverSettings& s) {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kArmijo = 1e-4;        // part of the predicted decrease that a step must bring
+constexpr double kArmijo = 1e-4;  // part of the predicted decrease that a step must bring
+constexpr double kLeastClamping = 1.0 / 64.0;
 constexpr int kMaxBacktracks = 40;      // halvings of a step while the energy tells steps apart
 constexpr int kMaxBlindBacktracks = 8;  // and where only the residual does
 
@@ -52,7 +53,11 @@ struct Newton::Point {
 };
 
 Newton::Newton(const Model& model, const SolverSettings& settings)
-    : settings_((check(settings), settings)), linear_solver_(settings.blas_threads), H_(model.pattern()) {
+    : settings_((check(settings), settings)),
+      linear_solver_(settings.blas_threads),
+      H_(model.pattern()),
+      exact_(model.pattern()),
+      projected_(model.pattern()) {
   linear_solver_.analyze(model.pattern(), model.pins());
 }
 
@@ -88,21 +93,35 @@ Newton::Point Newton::evaluate(const Model& model, const IncrementalPotential& p
   return p;
 }
 
-/// The exact Hessian while its Cholesky factorization succeeds, so that Newton stays quadratic; else the
-/// projected one.
-FactorStatus Newton::factorize(const Model& model, const IncrementalPotential& phi, const VecX& q) {
+void Newton::assemble(const Model& model, const IncrementalPotential& phi, const VecX& q, HessianKind kind,
+                      BlockHessian& H) const {
   const VecX x = position_of_V(phi, q);
-  const auto try_kind = [&](HessianKind kind) {
-    H_.set_zero();
-    for (const auto& term : model.energies()) term->add_hessian(x, phi.a, kind, H_);
-    if (phi.m != 0.0) model.add_mass(phi.m, H_);
+  H.set_zero();
+  for (const auto& term : model.energies()) term->add_hessian(x, phi.a, kind, H);
+  if (phi.m != 0.0) model.add_mass(phi.m, H);
+}
+
+/// The exact Hessian while its Cholesky factorization succeeds, so that Newton stays quadratic. When it does
+/// not, negative eigenvalues of elements are clamped, but only by the part that makes the whole positive
+/// definite: clamped in full, the elements around a few that buckle are much too stiff, and it takes two to
+/// eight times the iterations. `clamping` is that part, kept from one iteration to the next.
+FactorStatus Newton::factorize(const Model& model, const IncrementalPotential& phi, const VecX& q,
+                               double& clamping) {
+  if (settings_.hessian == "projected") {
+    assemble(model, phi, q, HessianKind::projected, H_);
     return linear_solver_.factorize(H_);
-  };
-  if (settings_.hessian == "auto") {
-    const FactorStatus status = try_kind(HessianKind::exact);
-    if (status != FactorStatus::not_positive_definite) return status;
   }
-  return try_kind(HessianKind::projected);
+  assemble(model, phi, q, HessianKind::exact, H_);
+  FactorStatus status = linear_solver_.factorize(H_);
+  if (status != FactorStatus::not_positive_definite) return status;
+  exact_ = H_;
+  assemble(model, phi, q, HessianKind::projected, projected_);
+  for (clamping = std::max(kLeastClamping, 0.5 * clamping);; clamping *= 4.0) {
+    clamping = std::min(clamping, 1.0);
+    H_.set_blend(exact_, projected_, clamping);
+    status = linear_solver_.factorize(H_);
+    if (status != FactorStatus::not_positive_definite || clamping == 1.0) return status;
+  }
 }
 
 /// Goes along the direction to a point that is better, and returns whether there was one.
@@ -149,12 +168,13 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
     return end(at_floor ? StepStatus::rounding_floor : StepStatus::not_converged);
   };
   VecX direction;
+  double clamping = 0.0;
   for (;;) {
     if (!point.is_finite()) return end(StepStatus::not_finite);
     if (point.norm <= settings_.tolerance * point.reference) return end(StepStatus::converged);
     if (report.iterations == settings_.max_iterations) return end_stagnated();
 
-    if (factorize(model, phi, point.q) != FactorStatus::ok) return end(StepStatus::not_positive);
+    if (factorize(model, phi, point.q, clamping) != FactorStatus::ok) return end(StepStatus::not_positive);
     linear_solver_.solve(-point.g, direction);
     ++report.iterations;
     if (!direction.allFinite()) return end(StepStatus::not_finite);

@@ -42,13 +42,15 @@ public:
 private:
   struct Point;
   Point evaluate(const Model&, const IncrementalPotential&, VecX q) const;
-  FactorStatus factorize(const Model&, const IncrementalPotential&, const VecX& q);
+  void assemble(const Model&, const IncrementalPotential&, const VecX& q, HessianKind, BlockHessian& H) const;
+  FactorStatus factorize(const Model&, const IncrementalPotential&, const VecX& q, double& clamping);
   bool search_line(const Model&, const IncrementalPotential&, const VecX& direction, Point& point) const;
   double rounding_floor(const Model&, const VecX& q) const;
 
   SolverSettings settings_;
   LinearSolver linear_solver_;
-  BlockHessian H_;
+  BlockHessian H_;  // as it was factorized last
+  BlockHessian exact_, projected_;
 };
 
 }  // namespace lagomorph::sim

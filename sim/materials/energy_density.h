@@ -18,10 +18,11 @@ concept EnergyDensity = requires(const Material m, const Mat3& F, const Material
   { Material::kNeedsPositiveJ } -> std::convertible_to<bool>;
   /// From the scene's parameters; throws InputError, prefixed by `where`, naming the valid range.
   { Material::from_settings(s, where) } -> std::same_as<Material>;
-  { m.psi(F) } -> std::same_as<double>;       // ψ [J/m^3], zero at F = I
-  { m.dpsi_dF(F) } -> std::same_as<Mat3>;     // first Piola-Kirchhoff stress [Pa]
-  { m.d2psi_dF2(F) } -> std::same_as<Mat9>;   // over row-major vec(F) [Pa]
-  { m.stiffness() } -> std::same_as<double>;  // the size of its moduli [Pa]
+  { m.psi(F) } -> std::same_as<double>;                // ψ [J/m^3], zero at F = I
+  { m.dpsi_dF(F) } -> std::same_as<Mat3>;              // first Piola-Kirchhoff stress [Pa]
+  { m.d2psi_dF2(F) } -> std::same_as<Mat9>;            // over row-major vec(F) [Pa]
+  { m.projected_d2psi_dF2(F) } -> std::same_as<Mat9>;  // with negative eigenvalues set to zero [Pa]
+  { m.stiffness() } -> std::same_as<double>;           // the size of its moduli [Pa]
 };
 
 }  // namespace lagomorph::sim

@@ -33,4 +33,7 @@ inline Mat9 stress_derivative(const InvariantDerivatives& d, const Mat3& F) {
   return H;
 }
 
+/// The same with its negative eigenvalues set to zero.
+Mat9 projected_stress_derivative(const InvariantDerivatives& d, const Mat3& F);
+
 }  // namespace lagomorph::sim

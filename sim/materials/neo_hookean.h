@@ -26,6 +26,9 @@ struct NeoHookean {
   }
   Mat3 dpsi_dF(const Mat3& F) const { return stress(derivatives(Invariants(F)), F); }
   Mat9 d2psi_dF2(const Mat3& F) const { return stress_derivative(derivatives(Invariants(F)), F); }
+  Mat9 projected_d2psi_dF2(const Mat3& F) const {
+    return projected_stress_derivative(derivatives(Invariants(F)), F);
+  }
   double stiffness() const { return 2.0 * (C + D); }
 
   InvariantDerivatives derivatives(const Invariants& inv) const {

@@ -23,6 +23,9 @@ struct StableNeoHookean {
   }
   Mat3 dpsi_dF(const Mat3& F) const { return stress(derivatives(Invariants(F)), F); }
   Mat9 d2psi_dF2(const Mat3& F) const { return stress_derivative(derivatives(Invariants(F)), F); }
+  Mat9 projected_d2psi_dF2(const Mat3& F) const {
+    return projected_stress_derivative(derivatives(Invariants(F)), F);
+  }
   double stiffness() const { return mu + std::abs(lambda); }
 
   InvariantDerivatives derivatives(const Invariants& inv) const {

@@ -29,6 +29,9 @@ struct StableNeoHookeanLog {
   }
   Mat3 dpsi_dF(const Mat3& F) const { return stress(derivatives(Invariants(F)), F); }
   Mat9 d2psi_dF2(const Mat3& F) const { return stress_derivative(derivatives(Invariants(F)), F); }
+  Mat9 projected_d2psi_dF2(const Mat3& F) const {
+    return projected_stress_derivative(derivatives(Invariants(F)), F);
+  }
   double stiffness() const { return m + l; }
 
   InvariantDerivatives derivatives(const Invariants& inv) const {

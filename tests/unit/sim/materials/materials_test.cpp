@@ -131,6 +131,28 @@ TYPED_TEST(Materials, HessianIsSymmetric) {
   EXPECT_LT((H - H.transpose()).cwiseAbs().maxCoeff(), 1e-14 * H.cwiseAbs().maxCoeff());
 }
 
+/// Also where singular values coincide or vanish, and turned inside out.
+TYPED_TEST(Materials, ProjectTheHessianAsItsEigenvaluesClampedAtZero) {
+  const auto material = make<TypeParam>();
+  std::vector<Mat3> cases = {Mat3::Identity(), 0.5 * Mat3::Identity(), Vec3(0.3, 0.3, 2.0).asDiagonal(),
+                             Vec3(1, 1, 1e-7).asDiagonal()};
+  for (unsigned seed = 0; seed < 30; ++seed) cases.push_back(random_F(seed, 1.0));
+  if (!TypeParam::kNeedsPositiveJ) cases.push_back(Mat3::Zero());
+  int projected = 0;
+  for (const Mat3& F : cases) {
+    if (TypeParam::kNeedsPositiveJ && F.determinant() <= 0.0) continue;
+    const Mat9 H = material.d2psi_dF2(F);
+    const Eigen::SelfAdjointEigenSolver<Mat9> eigen(H);
+    const Mat9 clamped = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
+                         eigen.eigenvectors().transpose();
+    EXPECT_LE((material.projected_d2psi_dF2(F) - clamped).cwiseAbs().maxCoeff(),
+              1e-13 * H.cwiseAbs().maxCoeff())
+        << F;
+    if (eigen.eigenvalues()[0] < -1e-3 * kYoung) ++projected;
+  }
+  EXPECT_GT(projected, 10);
+}
+
 TYPED_TEST(Materials, RestAtTheIdentityAndAnyRotation) {
   const auto material = make<TypeParam>();
   EXPECT_EQ(material.psi(Mat3::Identity()), 0.0);
