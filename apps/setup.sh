@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2154,SC2086
 # Shared by apps/bunny.sh and tests/run.sh; sourced, not run. Installs what is missing and builds.
 # `root` is set by the caller: the folder of this checkout.
 
@@ -16,27 +17,28 @@ packages() {
   done <"$root/apps/packages.txt"
 }
 
+on_one_line() { paste -sd ' ' <<<"$1"; }
+
 # install_packages SECTION...: apt-get for those that are not there. Says nothing when all are.
 install_packages() {
   local wanted missing as_root=()
   if [ "${LAGOMORPH_SKIP_INSTALL:-0}" = 1 ]; then return; fi
   wanted=$(packages "$@")
-  command -v apt-get >/dev/null && command -v dpkg-query >/dev/null ||
-    fail "apt is not here: install these yourself, then set LAGOMORPH_SKIP_INSTALL=1: $(echo $wanted)"
-  # shellcheck disable=SC2086
+  if ! { command -v apt-get && command -v dpkg-query; } >/dev/null; then
+    fail "apt is not here: install these yourself, then set LAGOMORPH_SKIP_INSTALL=1: $(on_one_line "$wanted")"
+  fi
   missing=$(comm -23 <(sort -u <<<"$wanted") \
     <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' $wanted 2>/dev/null | sed -n 's/^installed //p' | sort -u))
   if [ -z "$missing" ]; then return; fi
   if [ "$(id -u)" -ne 0 ]; then
     command -v sudo >/dev/null ||
-      fail "not root and no sudo; as root run: apt-get install -y --no-install-recommends $(echo $missing)"
+      fail "not root and no sudo; as root run: apt-get install -y --no-install-recommends $(on_one_line "$missing")"
     as_root=(sudo)
   fi
-  say "installing $(echo $missing)"
+  say "installing $(on_one_line "$missing")"
   "${as_root[@]}" apt-get update -qq || fail "apt-get update failed; is there a network?"
-  # shellcheck disable=SC2086
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null ||
-    fail "apt-get could not install: $(echo $missing)"
+    fail "apt-get could not install: $(on_one_line "$missing")"
 }
 
 # build PRESET [TARGET...]: configures once, then lets Ninja find what changed.

@@ -4,6 +4,7 @@
 set -euo pipefail
 program=$1
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+# shellcheck source=apps/setup.sh
 . "$root/apps/setup.sh"
 command -v dpkg-query >/dev/null || { echo "skipped: no dpkg"; exit 77; }
 # shellcheck disable=SC2046

@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2034
 # Sourced by the checks of tests/run.sh --full. 77 is what ctest knows as skipped.
 if [ "${LAGOMORPH_FULL:-0}" != 1 ]; then
   echo "skipped: run tests/run.sh --full"

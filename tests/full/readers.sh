@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # What the program writes, read by others: states by numpy, meshes by meshio and Gmsh, pictures by pngcheck, video by ffprobe.
+# shellcheck source=tests/full/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # The unit tests under AddressSanitizer and UndefinedBehaviorSanitizer.
+# shellcheck source=tests/full/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 cd "$root"
 cmake --preset sanitize >/dev/null
