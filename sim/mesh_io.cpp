@@ -64,25 +64,36 @@ const auto& find_format(const Table& table, std::string_view extension, const st
 
 }  // namespace
 
-TetMesh read_tet_mesh(const std::filesystem::path& path, Remarks& remarks, const MeshChecks& checks) {
-  const TetFormat& format =
-      find_format(kTetFormats, path.extension().string(), path.string(), "a tetrahedral mesh");
-  TetMesh mesh = format.read(io::read_file(path), remarks);
+TetMesh io::parse_tet_mesh(const File& file, Remarks& remarks, const MeshChecks& checks) {
+  const std::filesystem::path path = file.path;
+  TetMesh mesh = find_format(kTetFormats, path.extension().string(), file.path, "a tetrahedral mesh")
+                     .read(file, remarks);
   mesh.bodies = {Body{path.stem().string(), {0, mesh.vertex_count()}, {0, mesh.tet_count()}}};
-  check_tet_mesh(mesh, path.string(), remarks, checks);
+  check_tet_mesh(mesh, file.path, remarks, checks);
   return mesh;
 }
 
-TriMesh read_tri_mesh(const std::filesystem::path& path, Remarks& remarks) {
-  const TriFormat& format = find_format(kTriFormats, path.extension().string(), path.string(), "a surface");
-  TriMesh mesh = format.read(io::read_file(path), remarks);
+TriMesh io::parse_tri_mesh(const File& file, Remarks& remarks) {
+  const std::string extension = std::filesystem::path(file.path).extension().string();
+  TriMesh mesh = find_format(kTriFormats, extension, file.path, "a surface").read(file, remarks);
   const int welded = weld(mesh);
   if (welded > 0) {
-    remarks.push_back(path.string() + ": welded " + std::to_string(welded) +
+    remarks.push_back(file.path + ": welded " + std::to_string(welded) +
                       (welded == 1 ? " vertex" : " vertices") + " with others at the same place");
   }
-  check_tri_mesh(mesh, path.string(), remarks);
+  check_tri_mesh(mesh, file.path, remarks);
   return mesh;
+}
+
+TetMesh read_tet_mesh(const std::filesystem::path& path, Remarks& remarks, const MeshChecks& checks) {
+  find_format(kTetFormats, path.extension().string(), path.string(),
+              "a tetrahedral mesh");  // before it is looked for
+  return io::parse_tet_mesh(io::read_file(path), remarks, checks);
+}
+
+TriMesh read_tri_mesh(const std::filesystem::path& path, Remarks& remarks) {
+  find_format(kTriFormats, path.extension().string(), path.string(), "a surface");
+  return io::parse_tri_mesh(io::read_file(path), remarks);
 }
 
 std::string write_tet_mesh(const TetMesh& mesh, std::string_view extension, const MeshChecks& checks) {

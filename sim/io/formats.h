@@ -11,6 +11,10 @@
 /// leave `bodies` empty.
 namespace lagomorph::sim::io {
 
+/// What read_tet_mesh and read_tri_mesh do with a file once its bytes are there.
+TetMesh parse_tet_mesh(const File&, Remarks&, const MeshChecks& = {});
+TriMesh parse_tri_mesh(const File&, Remarks&);
+
 TetMesh read_medit(const File&, Remarks&);
 TetMesh read_gmsh(const File&, Remarks&);
 TetMesh read_tetgen_node(const File&, Remarks&);  // both read the other file of the pair too

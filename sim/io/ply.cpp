@@ -85,7 +85,7 @@ public:
     }
     if (!binary_ ? !scanner_.at_end() : scanner_.left() > 0) {
       const std::size_t left = scanner_.left();
-      if (!binary_) scanner_.peek();
+      scanner_.seek(scanner_.position());
       scanner_.fail(std::to_string(left) +
                     " bytes follow the last element; are the counts of the header right?");
     }

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "sim/error.h"
+#include "sim/io/formats.h"
 #include "sim/mesh_io.h"
 #include "sim/tet_mesh.h"
 
@@ -57,28 +58,22 @@ std::string error_of(Action action, const std::filesystem::path& folder = {}) {
   return "no error";
 }
 
-/// What reading a file of this name and content fails with, its folder cut from the front.
-inline std::string tet_error(const std::string& name, std::string_view bytes) {
-  const TempFolder folder;
+/// The mesh in a file of this name and content, which is not on disk.
+inline TetMesh tets_in(const std::string& name, const std::string& bytes) {
   Remarks remarks;
-  return error_of([&] { read_tet_mesh(folder.write(name, bytes), remarks); }, folder.path());
+  return io::parse_tet_mesh({name, bytes}, remarks);
 }
-inline std::string tri_error(const std::string& name, std::string_view bytes) {
-  const TempFolder folder;
+inline TriMesh triangles_in(const std::string& name, const std::string& bytes) {
   Remarks remarks;
-  return error_of([&] { read_tri_mesh(folder.write(name, bytes), remarks); }, folder.path());
+  return io::parse_tri_mesh({name, bytes}, remarks);
 }
 
-/// The mesh in a file of this content.
-inline TetMesh tets_in(const std::string& name, std::string_view bytes) {
-  const TempFolder folder;
-  Remarks remarks;
-  return read_tet_mesh(folder.write(name, bytes), remarks);
+/// What reading such a file fails with.
+inline std::string tet_error(const std::string& name, const std::string& bytes) {
+  return error_of([&] { tets_in(name, bytes); });
 }
-inline TriMesh triangles_in(const std::string& name, std::string_view bytes) {
-  const TempFolder folder;
-  Remarks remarks;
-  return read_tri_mesh(folder.write(name, bytes), remarks);
+inline std::string tri_error(const std::string& name, const std::string& bytes) {
+  return error_of([&] { triangles_in(name, bytes); });
 }
 
 /// `text` with its one occurrence of `from` replaced.
