@@ -51,8 +51,6 @@ build() {
     (cd "$root" && cmake --preset "$preset" >"$log" 2>&1) || { cat "$log" >&2; rm -f "$log"; fail "cmake failed"; }
     rm -f "$log"
   fi
-  # A dry run costs a tenth of a second and tells whether there is anything to say.
-  if ninja -C "$tree" -n "$@" 2>/dev/null | tail -n 1 | grep -q 'no work to do'; then return; fi
-  say "building $preset"
+  say "building $preset: $(on_one_line "${*:-everything}")"
   ninja -C "$tree" "$@" || fail "the build failed"
 }
