@@ -34,55 +34,61 @@ Brdf::Brdf(const Material& m) {
   const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
   coat_f0_ = r * r;
   coat_f90_ = std::min(1.0F, 50.0F * coat_f0_);
-  const float mean = coat_f0_ + (coat_f90_ - coat_f0_) / 21.0F;  // of F over the cosine-weighted hemisphere
-  base_ = (1.0F - m.metallic) * inv_pi / (1.0F - mean) * m.base_color;
   f0_ = (1.0F - m.metallic) * Color::Constant(coat_f0_) + m.metallic * m.base_color;
   f90_ = std::min(1.0F, 50.0F * f0_.maxCoeff());
   alpha_ = std::max(m.roughness * m.roughness, 1e-3F);  // sharper is a mirror but for what float resolves
+  float mean = 0.0F;                                    // of what is let in, 2 int into_base(c) c dc
+  for (int i = 0; i <= intervals; ++i) {
+    const float cosine = static_cast<float>(i) / intervals;
+    CoatAlbedo& a = albedo_[static_cast<std::size_t>(i)];
+    a = coat_albedo(cosine, m.roughness);
+    mean += 2.0F * into_base(a) * cosine * (i == intervals ? 0.5F : 1.0F) / intervals;
+  }
+  base_ = (1.0F - m.metallic) * inv_pi / mean * m.base_color;
 }
 
-Brdf Brdf::roughened(float alpha) const {
-  Brdf rougher = *this;
-  rougher.alpha_ = std::max(alpha_, alpha);
-  return rougher;
+CoatAlbedo Brdf::albedo(float cosine) const {
+  const float x = std::min(cosine, 0x1.fffffep-1F) * intervals;
+  const int i = static_cast<int>(x);
+  const float t = x - static_cast<float>(i);
+  const CoatAlbedo& a = albedo_[static_cast<std::size_t>(i)];
+  const CoatAlbedo& b = albedo_[static_cast<std::size_t>(i) + 1];
+  return {a.scale + t * (b.scale - a.scale), a.offset + t * (b.offset - a.offset)};
 }
 
-/// Part of the light that the dielectric coat lets through.
-float Brdf::into_base(float cosine) const {
-  return 1.0F - coat_f0_ - (coat_f90_ - coat_f0_) * pow5(1.0F - cosine);
+Brdf::View Brdf::view(const Vec3& wo, float least_alpha) const {
+  const CoatAlbedo a = albedo(std::max(wo.z(), 0.0F));
+  const Color base = base_ * into_base(a);
+  const float coat = luminance(f0_) * a.scale + f90_ * a.offset;
+  const float all = coat + std::numbers::pi_v<float> * luminance(base);
+  const float alpha = std::max(alpha_, least_alpha);
+  return {wo, base, all > 0.0F ? coat / all : 0.0F, alpha, smith_root(wo, alpha)};
 }
 
-float Brdf::coat_probability(float cos_o) const {
-  const float coat = luminance(f0_ + (f90_ - f0_) * pow5(1.0F - cos_o));
-  const float base = luminance(base_) * std::numbers::pi_v<float> * into_base(cos_o);
-  return coat + base > 0.0F ? coat / (coat + base) : 0.0F;
-}
-
-Brdf::Value Brdf::evaluate(const Vec3& wo, const Vec3& wi) const {
+Brdf::Value Brdf::evaluate(const View& view, const Vec3& wi) const {
+  const Vec3& wo = view.wo;
   if (wi.z() <= 0.0F || wo.z() <= 0.0F) return {};
   const Vec3 h = (wo + wi).normalized();
-  const float d = ggx(h, alpha_);
-  const float root_o = smith_root(wo, alpha_);
-  const float root_i = smith_root(wi, alpha_);
-  const float visibility = 0.5F / (wo.z() * root_i + wi.z() * root_o);
+  const float d = ggx(h, view.alpha);
+  const float visibility = 0.5F / (wo.z() * smith_root(wi, view.alpha) + wi.z() * view.root);
   const Color coat = (f0_ + (f90_ - f0_) * pow5(1.0F - std::min(wo.dot(h), 1.0F))) * (d * visibility);
-  const Color base = base_ * (into_base(wo.z()) * into_base(wi.z()));
-  const float p = coat_probability(wo.z());
-  // Density of reflecting at a visible normal: G1(o) D / (4 cos_o), G1 = 2 cos_o / (cos_o + root_o).
-  const float coat_pdf = d / (2.0F * (wo.z() + root_o));
+  const Color base = view.base * into_base(albedo(wi.z()));
+  // Density of reflecting at a visible normal: G1(o) D / (4 cos_o), G1 = 2 cos_o / (cos_o + root).
+  const float coat_pdf = d / (2.0F * (wo.z() + view.root));
+  const float p = view.coat_probability;
   return {(base + coat) * wi.z(), p * coat_pdf + (1.0F - p) * wi.z() * inv_pi};
 }
 
-Brdf::Sample Brdf::sample(const Vec3& wo, Pair s) const {
-  const float p = coat_probability(wo.z());
+Brdf::Sample Brdf::sample(const View& view, Pair s) const {
+  const float p = view.coat_probability;
   Vec3 wi;
   if (s.u < p) {
-    const Vec3 h = sample_visible_normal(wo, alpha_, {s.u / p, s.v});
-    wi = 2.0F * wo.dot(h) * h - wo;
+    const Vec3 h = sample_visible_normal(view.wo, view.alpha, {s.u / p, s.v});
+    wi = 2.0F * view.wo.dot(h) * h - view.wo;
   } else {
     wi = sample_cosine({std::min((s.u - p) / (1.0F - p), 0x1.fffffep-1F), s.v});
   }
-  return {wi, evaluate(wo, wi)};
+  return {wi, evaluate(view, wi)};
 }
 
 Vec3 sample_visible_normal(const Vec3& wo, float alpha, Pair s) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+
+#include "render/coat_albedo.h"
 #include "render/path/sampler.h"
 #include "render/render_scene.h"
 
@@ -7,18 +10,25 @@ namespace lagomorph::render::path {
 
 /// A material ready to be evaluated: Lambert under a GGX coat, or a metal. Directions are unit vectors in the
 /// surface's frame, z along the normal, both pointing away from the surface; z > 0 for both.
-///   f = (1 - metallic) base / pi (1 - F_d(cos_o)) (1 - F_d(cos_i)) / (1 - mean F_d) + F(h.o) D V
-/// with Schlick's F(c) = f0 + (f90 - f0) (1 - c)^5, F_d the dielectric's. D is GGX, V = G2 / (4 cos_o cos_i)
-/// with Smith's height-correlated G2 [Heitz 2014]. The base gets what the coat lets in and out [Kelemen and
-/// Szirmay-Kalos 2001], so that no more is reflected than arrives; weighing it by 1 - F(h.o) alone, as is
-/// common, gives 40 % too much light at grazing angles. f90 fades to 0 with f0 below 2 % [Lagarde and de
-/// Rousiers 2014]: ior = 1 is no coat at all.
+///   f = (1 - metallic) base / pi (1 - E(cos_o)) (1 - E(cos_i)) / (1 - mean E) + F(h.o) D V
+/// with Schlick's F(c) = f0 + (f90 - f0) (1 - c)^5. D is GGX, V = G2 / (4 cos_o cos_i) with Smith's
+/// height-correlated G2 [Heitz 2014]. E is the dielectric coat's directional albedo: the base gets what the
+/// coat lets in and out [Kelemen and Szirmay-Kalos 2001], so that a white one reflects exactly all that
+/// arrives. f90 fades to 0 with f0 below 2 % [Lagarde and de Rousiers 2014]: ior = 1 is no coat at all.
 class Brdf {
 public:
-  Brdf() = default;
   explicit Brdf(const Material&);
-  /// The same with a coat at least as rough as alpha.
-  Brdf roughened(float alpha) const;
+
+  /// What only depends on the direction of the eye.
+  struct View {
+    Vec3 wo;
+    Color base;              // 1/sr, but for what depends on wi
+    float coat_probability;  // of sampling the coat
+    float alpha;
+    float root;  // cos_o (1 + 2 Lambda(wo))
+  };
+  /// `least_alpha`: the coat is taken to be at least as rough.
+  View view(const Vec3& wo, float least_alpha = 0.0F) const;
 
   struct Value {
     Color f_cos = Color::Zero();  // BRDF times cos_i [1/sr]
@@ -28,20 +38,22 @@ public:
     Vec3 direction;
     Value value;  // pdf = 0: no direction, the path ends
   };
-  Value evaluate(const Vec3& wo, const Vec3& wi) const;
-  Sample sample(const Vec3& wo, Pair) const;
+  Value evaluate(const View&, const Vec3& wi) const;
+  Sample sample(const View&, Pair) const;
 
 private:
-  float coat_probability(float cos_o) const;
+  CoatAlbedo albedo(float cosine) const;
+  /// Part of the light from a direction that the dielectric coat lets through.
+  float into_base(const CoatAlbedo& a) const { return 1.0F - coat_f0_ * a.scale - coat_f90_ * a.offset; }
 
-  float into_base(float cosine) const;
-
-  Color base_ = Color::Zero();  // its BRDF without what the coat takes
-  Color f0_ = Color::Zero();    // of the coat or metal
-  float f90_ = 0.0F;
-  float coat_f0_ = 0.0F;  // of the dielectric
-  float coat_f90_ = 0.0F;
-  float alpha_ = 1.0F;
+  static constexpr int intervals = 64;
+  std::array<CoatAlbedo, intervals + 1> albedo_;  // at cosines 0 .. 1
+  Color base_;                                    // its BRDF but for what the coat takes [1/sr]
+  Color f0_;                                      // of the coat or metal
+  float f90_;
+  float coat_f0_;  // of the dielectric
+  float coat_f90_;
+  float alpha_;
 };
 
 /// Visible normals of GGX by spherical caps [Dupuy and Benyoub 2023]; the distribution of [Heitz 2018].

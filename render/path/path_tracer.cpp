@@ -208,8 +208,10 @@ void PathTracer::begin_vertex(const SurfacePoint& at, const Ray& ray, const Path
   v.origin = at.origin;
   v.n = at.normal;
   make_frame(v.n, v.t, v.b);
-  v.wo = Vec3(-ray.direction.dot(v.t), -ray.direction.dot(v.b), -ray.direction.dot(v.n));
-  v.brdf = path.least_pdf < 1.0F ? brdf.roughened(0.5F * std::sqrt(1.0F - path.least_pdf)) : brdf;
+  v.brdf = &brdf;
+  const float least_alpha = path.least_pdf < 1.0F ? 0.5F * std::sqrt(1.0F - path.least_pdf) : 0.0F;
+  v.view =
+      brdf.view(Vec3(-ray.direction.dot(v.t), -ray.direction.dot(v.b), -ray.direction.dot(v.n)), least_alpha);
   v.throughput = share * path.throughput;
   v.least_pdf = path.least_pdf;
   v.lane = path.lane;
@@ -252,7 +254,7 @@ void PathTracer::gather_light(const Vertex& v, const RectangleLight& light, floa
   const Vec3 wi(to.direction.dot(v.t), to.direction.dot(v.b), to.direction.dot(v.n));
   const float pdf = pick * to.pdf;
   if (pdf <= 0.0F || wi.z() <= 0.0F) return;
-  const Brdf::Value f = v.brdf.evaluate(v.wo, wi);
+  const Brdf::Value f = v.brdf->evaluate(v.view, wi);
   const Color arriving = (power_heuristic(pdf, f.pdf) / pdf) * light.radiance() * f.f_cos * v.throughput;
   // The light is no obstacle; 1e-5 short of it so that a mesh around it is none either.
   push_shadow({v.origin, to.direction}, to.distance * (1.0F - 1e-5F), arriving, v.lane);
@@ -266,7 +268,7 @@ void PathTracer::gather_sky(std::uint32_t depth) {
     const float pdf = wi.z() * inv_pi;
     if (pdf <= 0.0F) continue;
     const Vec3 direction = wi.x() * v.t + wi.y() * v.b + wi.z() * v.n;
-    const Brdf::Value f = v.brdf.evaluate(v.wo, wi);
+    const Brdf::Value f = v.brdf->evaluate(v.view, wi);
     const Color arriving =
         (power_heuristic(pdf, f.pdf) / pdf) * sky_radiance(shading_.sky, direction) * f.f_cos * v.throughput;
     push_shadow({v.origin, direction}, std::numeric_limits<float>::infinity(), arriving, v.lane);
@@ -301,7 +303,7 @@ void PathTracer::trace_shadows(Coherence coherence) {
 /// The next rays, by the BRDF; dim paths end by Russian roulette.
 void PathTracer::scatter(std::uint32_t depth) {
   for (const Vertex& v : vertices_) {
-    const Brdf::Sample s = v.brdf.sample(v.wo, v.samples.pair(dimension(depth, scatter_dimension)));
+    const Brdf::Sample s = v.brdf->sample(v.view, v.samples.pair(dimension(depth, scatter_dimension)));
     if (s.value.pdf <= 0.0F) continue;
     Color throughput = v.throughput * s.value.f_cos / s.value.pdf;
     const float bright = throughput.maxCoeff();

@@ -59,8 +59,8 @@ private:
   struct Vertex {
     Vec3 origin;
     Vec3 t, b, n;  // shading frame
-    Vec3 wo;       // in it
-    Brdf brdf;
+    const Brdf* brdf;
+    Brdf::View view;  // in that frame
     Color throughput;
     float least_pdf;
     std::uint32_t lane;

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "render/coat_albedo.h"
 #include "render/raster/frame_block.h"
 #include "render/render_scene.h"
 
@@ -18,12 +19,6 @@ SkyIrradiance sky_irradiance(float normal_y);
 /// sky_irradiance at n.y = -1 .. 1 in `entries` equal steps.
 std::vector<SkyIrradiance> sky_irradiance_table(int entries);
 
-/// What the coat reflects of light that comes alike from all over: f0 * scale + f90 * offset (the split sum
-/// of [Karis 2013]), GGX with Smith's height-correlated masking.
-struct CoatAlbedo {
-  float scale, offset;
-};
-CoatAlbedo coat_albedo(float cos_view, float roughness);
 /// entries x entries, cos_view fastest, both at the middles of equal steps over [0, 1].
 std::vector<CoatAlbedo> coat_albedo_table(int entries);
 
