@@ -18,10 +18,11 @@ namespace lagomorph::apps {
 namespace {
 
 constexpr int most_threads = 1024;
+constexpr int most_pixels_per_degree = 1000;  // FLIP's
 
 struct CommandRow {
   const char* name;
-  const char* input;  // what it takes, as in the usage line
+  const char* input;  // what it takes, as in the usage line: names between spaces
   const char* meaning;
   const char* example;
   ExitStatus (*run)(const Options&);
@@ -33,6 +34,8 @@ constexpr CommandRow commands[] = {
      "lagomorph simulate scenes/bar.toml --set body.0.density=500", simulate_command},
     {"render", "RUN", "draw pictures from the states of a run",
      "lagomorph render out/bunny --set camera.fov=25 -o out/closer", render_command},
+    {"compare", "A B", "tell whether two pictures are the same, and by how much they differ",
+     "lagomorph compare golden.png new.png --heat heat.png", compare_command},
     {"info", "FILE", "tell what a mesh, a scene or a run is", "lagomorph info meshes/bunny.msh --json",
      info_command},
 };
@@ -77,27 +80,40 @@ void apply_threads(Options& o, const std::string& value) {
   o.threads = n;
 }
 
+void apply_ppd(Options& o, const std::string& value) {
+  double n = 0;
+  const char* end = value.data() + value.size();
+  const auto [stop, error] = std::from_chars(value.data(), end, n);
+  if (error != std::errc() || stop != end || !(n >= 1 && n <= most_pixels_per_degree)) {
+    wrong_input(fmt::format("--ppd {}: must be a number in 1 .. {}", value, most_pixels_per_degree));
+  }
+  o.pixels_per_degree = n;
+}
+
 constexpr OptionRow option_rows[] = {
-    {"-o,--out", "DIR", " run simulate render ", "where the run is written",
+    {"-o,--out", "DIR", " run simulate render compare ", "where what is made is written",
      [](Options& o, const std::string& v) { o.out = non_empty(v, "--out"); }},
     {"--set", "KEY=VALUE", " run simulate render info ",
      "a scene key, as in body.0.density=500; VALUE is TOML or a string", apply_set},
     {"--frames", "A..B", " run simulate render ", "only pictures A to B, both included; or one number",
      [](Options& o, const std::string& v) { o.frames = parse_frames(v); }},
     {"--backend", "NAME", " run render ", "raster or path, instead of the scene's", apply_backend},
-    {"--threads", "N", " run simulate render info ", "at most N threads; never changes a result",
+    {"--threads", "N", " run simulate render compare info ", "at most N threads; never changes a result",
      apply_threads},
     {"--video", nullptr, " run render ", "also make RUN/<name>.mp4 of the pictures",
      [](Options& o, const std::string&) { o.video = true; }},
     {"--force", nullptr, " run simulate render ", "make anew what is there but does not match the scene",
      [](Options& o, const std::string&) { o.force = true; }},
+    {"--ppd", "N", " compare ", "pixels per degree of visual angle, for FLIP; by default 67.0206", apply_ppd},
+    {"--heat", "FILE", " compare ", "write where they differ as a PNG; with --out, DIR/heat.png",
+     [](Options& o, const std::string& v) { o.heat = non_empty(v, "--heat"); }},
     {"--mend", "OUT", " info ", "write the tet mesh without its stray vertices to OUT",
      [](Options& o, const std::string& v) { o.mend = non_empty(v, "--mend"); }},
     {"--keys", nullptr, " info ", "print the table of scene keys",
      [](Options& o, const std::string&) { o.keys = true; }},
-    {"--quiet", nullptr, " run simulate render info ", "no progress, only errors",
+    {"--quiet", nullptr, " run simulate render compare info ", "no progress, only errors",
      [](Options& o, const std::string&) { o.quiet = true; }},
-    {"--json", nullptr, " run simulate render info ", "print the result as JSON on stdout",
+    {"--json", nullptr, " run simulate render compare info ", "print the result as JSON on stdout",
      [](Options& o, const std::string&) { o.json = true; }},
 };
 
@@ -111,8 +127,8 @@ std::string long_name(const OptionRow& option) {
 }
 
 constexpr char statuses[] =
-    "Exit status: 0 done; 2 wrong usage or input; 3 the simulation could not go on; 4 the machine failed\n"
-    "(disk full, no ffmpeg); 130 or 143 interrupted.\n";
+    "Exit status: 0 done, or same; 1 different; 2 wrong usage or input; 3 the simulation could not go on;\n"
+    "4 the machine failed (disk full, no ffmpeg); 130 or 143 interrupted.\n";
 
 std::string usage(const CommandRow& command) {
   return fmt::format("lagomorph {} {} [options]", command.name, command.input);
@@ -197,9 +213,14 @@ std::vector<std::string> inputs_of(const CommandRow& command, const std::vector<
 }
 
 void check_inputs(const CommandRow& command, const Options& options) {
-  const std::size_t needed = options.keys ? 0 : 1;
+  const std::string_view names = command.input;
+  const std::size_t all = 1 + static_cast<std::size_t>(std::count(names.begin(), names.end(), ' '));
+  const std::size_t needed = options.keys ? 0 : all;
   if (options.inputs.size() < needed) {
-    wrong_input(fmt::format("{} needs a {}: {}", command.name, command.input, usage(command)));
+    std::string_view missing = names;
+    for (std::size_t i = 0; i < options.inputs.size(); ++i) missing.remove_prefix(missing.find(' ') + 1);
+    wrong_input(
+        fmt::format("{} needs {}{}: {}", command.name, all == 1 ? "a " : "", missing, usage(command)));
   }
   if (options.inputs.size() > needed) {
     wrong_input(fmt::format("unexpected argument '{}': {}", options.inputs[needed], usage(command)));

@@ -16,7 +16,7 @@ struct FrameRange {
 /// The command line of every command: options have one meaning everywhere.
 struct Options {
   std::string command;                        // run, simulate, render, info, ...
-  std::vector<std::string> inputs;            // SCENE.toml, RUN, FILE as given
+  std::vector<std::string> inputs;            // SCENE.toml, RUN, FILE, A and B as given
   std::optional<std::filesystem::path> out;   // -o, --out
   std::vector<std::string> set;               // --set, in order
   std::optional<FrameRange> frames;           // --frames
@@ -28,6 +28,8 @@ struct Options {
   bool json = false;                          // --json
   std::optional<std::filesystem::path> mend;  // info --mend OUT: drop stray vertices
   bool keys = false;                          // info --keys: the table of scene keys
+  std::optional<double> pixels_per_degree;    // compare, check --ppd
+  std::optional<std::filesystem::path> heat;  // compare --heat FILE.png
 };
 
 }  // namespace lagomorph::apps

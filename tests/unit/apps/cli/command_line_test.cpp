@@ -77,11 +77,10 @@ TEST(CommandLine, TellsHelpAndVersion) {
     EXPECT_EQ(parse({"run", help}).text.find("Usage: lagomorph run SCENE.toml [options]\n"), 0U);
     EXPECT_EQ(parse({"render", "a", "b", "--nonsense", help}).text.find("Usage: lagomorph render RUN"), 0U);
   }
-  for (const char* command : {"run", "simulate", "render", "info"}) {
+  for (const char* command : {"run", "simulate", "render", "compare", "info"}) {
     EXPECT_NE(program_help().find(std::string("\n  ") + command + " "), std::string::npos) << command;
     const std::string text = parse({command, "--help"}).text;
-    for (const char* part :
-         {"Options:\n", "--set KEY=VALUE", "--json", "\nExample: lagomorph ", "\nExit status: "}) {
+    for (const char* part : {"Options:\n", "--quiet", "--json", "\nExample: lagomorph ", "\nExit status: "}) {
       EXPECT_NE(text.find(part), std::string::npos) << part << " of " << command;
     }
   }
@@ -104,10 +103,12 @@ TEST(CommandLine, TellsWhatIsWrong) {
     std::string message;
   } cases[] = {
       {{}, "no command given; lagomorph --help lists them"},
-      {{"rnu"}, "unknown command 'rnu'; did you mean 'run'? Commands are run, simulate, render, info"},
-      {{"check"}, "unknown command 'check'; commands are run, simulate, render, info"},
+      {{"rnu"},
+       "unknown command 'rnu'; did you mean 'run'? Commands are run, simulate, render, compare, info"},
+      {{"publish"}, "unknown command 'publish'; commands are run, simulate, render, compare, info"},
       {{"--quiet", "run"},
-       "'--quiet' where a command is expected (run, simulate, render, info); options follow the command"},
+       "'--quiet' where a command is expected (run, simulate, render, compare, info); options follow the "
+       "command"},
       {{"run"}, "run needs a SCENE.toml: lagomorph run SCENE.toml [options]"},
       {{"run", "a", "b"}, "unexpected argument 'b': lagomorph run SCENE.toml [options]"},
       {{"run", ""}, "SCENE.toml is empty"},
@@ -130,6 +131,12 @@ TEST(CommandLine, TellsWhatIsWrong) {
       {{"run", "a", "--threads", "two"}, "--threads two: must be a whole number in 1 .. 1024"},
       {{"run", "a", "--threads", "99999999999"},
        "--threads 99999999999: must be a whole number in 1 .. 1024"},
+      {{"compare"}, "compare needs A B: lagomorph compare A B [options]"},
+      {{"compare", "a"}, "compare needs B: lagomorph compare A B [options]"},
+      {{"compare", "a", "b", "c"}, "unexpected argument 'c': lagomorph compare A B [options]"},
+      {{"compare", "a", "b", "--ppd", "0"}, "--ppd 0: must be a number in 1 .. 1000"},
+      {{"compare", "a", "b", "--ppd", "nan"}, "--ppd nan: must be a number in 1 .. 1000"},
+      {{"compare", "a", "b", "--ppd", "67x"}, "--ppd 67x: must be a number in 1 .. 1000"},
       {{"run", "a", "--video=perhaps"}, ""},
   };
   for (const auto& c : cases) {
