@@ -33,10 +33,14 @@ void allocate_depth(const Texture& texture, int size, int layers) {
   glTexParameterfv(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BORDER_COLOR, nothing.data());
 }
 
-void allocate_table(const Texture& texture, int width, int height, const void* pairs) {
+/// Of two or four floats an entry.
+template <class Entry>
+void allocate_table(const Texture& texture, int width, int height, const std::vector<Entry>& entries) {
+  static_assert(sizeof(Entry) == 8 || sizeof(Entry) == 16);
+  constexpr bool pairs = sizeof(Entry) == 8;
   glBindTexture(GL_TEXTURE_2D, texture.id());
-  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RG32F, width, height);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RG, GL_FLOAT, pairs);
+  glTexStorage2D(GL_TEXTURE_2D, 1, pairs ? GL_RG32F : GL_RGBA32F, width, height);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, pairs ? GL_RG : GL_RGBA, GL_FLOAT, entries.data());
   sampling(GL_TEXTURE_2D, GL_LINEAR, GL_LINEAR);
 }
 
@@ -66,8 +70,8 @@ LightMaps::LightMaps(const RasterSettings& settings)
       ground_program_(
           "ground map", {shaders::full_screen_vertex},
           {shaders::frame, shaders::brdf, shaders::shadow, shaders::sky, shaders::ground_map_fragment}) {
-  allocate_table(sky_table_, sky_table_size, 1, sky_irradiance_table(sky_table_size).data());
-  allocate_table(coat_table_, coat_table_size, coat_table_size, coat_albedo_table(coat_table_size).data());
+  allocate_table(sky_table_, sky_table_size, 1, sky_irradiance_table(sky_table_size));
+  allocate_table(coat_table_, coat_table_size, coat_table_size, coat_albedo_table(coat_table_size));
   allocate_depth(sky_maps_, sky_map_size, most_sky_directions);
   const int levels = static_cast<int>(std::log2(ground_map_size)) + 1;
   for (const Texture* texture : {&ground_ambient_, &ground_bounce_}) {

@@ -43,13 +43,20 @@ std::vector<SkyIrradiance> sky_irradiance_table(int entries) {
   return table;
 }
 
-std::vector<CoatAlbedo> coat_albedo_table(int entries) {
-  std::vector<CoatAlbedo> table;
+std::vector<CoatTableEntry> coat_albedo_table(int entries) {
+  std::vector<CoatTableEntry> table;
+  const float step = 1.0F / static_cast<float>(entries);
   for (int r = 0; r < entries; ++r) {
+    const std::size_t row = table.size();
+    CoatAlbedo mean{0.0F, 0.0F};
     for (int c = 0; c < entries; ++c) {
-      table.push_back(coat_albedo((static_cast<float>(c) + 0.5F) / static_cast<float>(entries),
-                                  (static_cast<float>(r) + 0.5F) / static_cast<float>(entries)));
+      const float cosine = (static_cast<float>(c) + 0.5F) * step;
+      const CoatAlbedo a = coat_albedo(cosine, (static_cast<float>(r) + 0.5F) * step);
+      mean.scale += 2.0F * a.scale * cosine * step;
+      mean.offset += 2.0F * a.offset * cosine * step;
+      table.push_back({a, {}});
     }
+    for (std::size_t i = row; i < table.size(); ++i) table[i].mean = mean;
   }
   return table;
 }

@@ -19,8 +19,12 @@ SkyIrradiance sky_irradiance(float normal_y);
 /// sky_irradiance at n.y = -1 .. 1 in `entries` equal steps.
 std::vector<SkyIrradiance> sky_irradiance_table(int entries);
 
+/// A coat's albedo in a direction, and its mean over the hemisphere, 2 int albedo(c) c dc.
+struct CoatTableEntry {
+  CoatAlbedo direction, mean;
+};
 /// entries x entries, cos_view fastest, both at the middles of equal steps over [0, 1].
-std::vector<CoatAlbedo> coat_albedo_table(int entries);
+std::vector<CoatTableEntry> coat_albedo_table(int entries);
 
 /// Directions that share the upper hemisphere evenly, each with two axes across and the sky's radiance.
 std::array<SkyDirectionBlock, most_sky_directions> sky_directions(const Sky&);

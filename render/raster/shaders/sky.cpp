@@ -120,7 +120,11 @@ vec3 radiance_from_below(vec3 x) {
 )";
 
 const char* const shade = R"(
-layout(binding = 5) uniform sampler2D coat_table;
+layout(binding = 5) uniform sampler2D coat_table;  // scale and offset of the coat's albedo, then their means
+
+// Part of the light that the dielectric coat lets through, into the base or out of it (coat_albedo.h): a direction's, or
+// the mean over the hemisphere.
+float into_base(Coat coat, vec2 albedo) { return 1.0 - dot(coat.dielectric, albedo); }
 
 struct Point {
   vec3 x;            // [m]
@@ -137,6 +141,10 @@ vec3 shade(Point p, vec3 v, Surface surface, vec3 seen, vec3 below) {
   vec3 x = p.x;
   vec3 n = p.normal;
   float nv = clamp(dot(n, v), 1e-3, 1.0);
+  vec4 at_eye = texture(coat_table, vec2(nv, coat.roughness));
+  vec2 split = at_eye.rg;
+  float out_of_base = into_base(coat, split);
+  float mean_into_base = into_base(coat, at_eye.ba);
   vec3 radiance = vec3(0.0);
   int count = int(counts.x);
   for (int i = 0; i < count; ++i) {
@@ -147,10 +155,8 @@ vec3 shade(Point p, vec3 v, Surface surface, vec3 seen, vec3 below) {
 #else
     float visibility = 1.0;
 #endif
-    vec3 h = normalize(direction + v);
-    float fresnel = pow5(1.0 - clamp(dot(h, v), 0.0, 1.0));
-    float base = 1.0 - mix(coat.dielectric.x, coat.dielectric.y, fresnel);
-    vec3 reflected = coat.diffuse * (base / PI * irradiance);
+    vec4 at_light = texture(coat_table, vec2(clamp(dot(n, direction), 0.0, 1.0), coat.roughness));
+    vec3 reflected = coat.diffuse * (out_of_base * into_base(coat, at_light.rg) / (PI * mean_into_base) * irradiance);
     reflected += rectangle_reflection(lights[i], x, n, v, nv, coat);
     radiance += visibility * lights[i].radiance.rgb * reflected;
   }
@@ -160,8 +166,7 @@ vec3 shade(Point p, vec3 v, Surface surface, vec3 seen, vec3 below) {
   vec3 from_below = 0.5 * PI * (1.0 - n.y) * below;
   vec3 hidden = open * (1.0 - seen) / (open + from_below + 1e-6);
   vec3 ambient = (open * seen + from_below) / max(1.0 - hidden * coat.diffuse, 0.05);
-  vec2 split = texture(coat_table, vec2(nv, coat.roughness)).rg;
-  radiance += coat.diffuse / PI * ambient * (1.0 - dot(coat.dielectric, split));
+  radiance += coat.diffuse / PI * ambient * out_of_base;
 
   vec3 r = reflect(-v, n);
   float roughness = coat.roughness;

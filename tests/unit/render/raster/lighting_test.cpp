@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/path/brdf.h"
 #include "render/raster/sky_model.h"
 #include "tests/unit/render/raster/shapes.h"
 
@@ -56,6 +57,28 @@ TEST(RasterLight, AMatteGroundUnderASmallFarLightHasItsClosedForm) {
     const Color expected = 0.5F / pi * point_irradiance(light, p, Vec3::UnitY()) * light.color;
     const Color found = color_at(image, x, y);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 2e-3F * expected[c]);
+  }
+}
+
+TEST(RasterLight, ACoatedGroundReflectsAsThePathTracersMaterialDoes) {
+  const AreaLight light = small_far_light();
+  const RenderSettings settings = small_settings();
+  const Camera camera(from_above(), settings.width, settings.height);
+  for (const float roughness : {0.3F, 0.6F, 1.0F}) {
+    RenderScene scene = with_ground(light);
+    scene.ground.material = Material{Color(0.9F, 0.5F, 0.1F), roughness, 0.0F, 1.5F};
+    const path::Brdf brdf(scene.ground.material);
+    const Image image = draw(scene, from_above(), settings);
+    for (const auto& [x, y] : {std::pair{48, 32}, {5, 5}, {90, 60}, {70, 11}}) {
+      const Ray ray = camera.ray(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+      const Vec3 p = ray.origin - ray.origin.y() / ray.direction.y() * ray.direction;
+      const Vec3 l = (light.position - p).normalized();
+      const auto local = [](const Vec3& d) { return Vec3(d.z(), d.x(), d.y()); };  // z along the normal
+      const Color f = brdf.evaluate(brdf.view(local(-ray.direction)), local(l)).f_cos / l.y();
+      const Color expected = point_irradiance(light, p, Vec3::UnitY()) * f * light.color;
+      const Color found = color_at(image, x, y);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 0.01F * expected[c]) << roughness;
+    }
   }
 }
 
