@@ -20,14 +20,15 @@ StatesOfRun::StatesOfRun(const RunPaths& paths, const Identity& of_run, int fram
     if (frame >= frame_count || !record.state || record.state->made_by != of_run.state_maker()) continue;
     if (fs::is_regular_file(paths.state(frame), error)) records_.emplace(frame, *record.state);
   }
-  if (records_.contains(0)) return;
+  if (!records_.empty()) return;
   throw Error(ExitStatus::wrong_input,
               fmt::format("{}: has no states; lagomorph simulate {} --out {} makes them",
                           paths.root().string(), paths.scene().string(), paths.root().string()));
 }
 
 FrameRange StatesOfRun::all() const {
-  FrameRange range{0, 0};
+  const int first = records_.begin()->first;
+  FrameRange range{first, first};
   while (records_.contains(range.last + 1)) ++range.last;
   return range;
 }

@@ -16,7 +16,7 @@ public:
   StatesOfRun(const RunPaths&, const Identity& of_run, int frame_count);
 
   const std::map<int, StateRecord>& records() const { return records_; }
-  /// From 0 as far as there is no gap.
+  /// From the first one on as far as there is no gap.
   FrameRange all() const;
   /// Throws Error(wrong_input) when a state of these frames is not there with the bytes that its record
   /// tells.

@@ -47,6 +47,21 @@ TEST_F(RenderCommand, DrawsTheStatesThatAreThere) {
   EXPECT_NE(said.find("states/frame_0003.npy: is not there; lagomorph simulate"), std::string::npos) << said;
 }
 
+TEST_F(RenderCommand, PartOfACacheIsDrawn) {
+  expect(0, run("r"));
+  for (const char* const file : {"states/frame_0000.npy", "states/frame_0001.npy", "records/frame_0000.json"})
+    fs::remove(at("r") / file);
+  expect(0, render("r", {"--frames", "3", "-o", at("one").string()}));
+  EXPECT_EQ(count_files(at("one") / "frames"), 1);
+  expect(0, render("r", {"-o", at("two").string()}));
+  EXPECT_EQ(count_files(at("two") / "frames"), 2);
+  for (const char* const file : {"frames/frame_0002.png", "frames/frame_0003.png"})
+    EXPECT_EQ(read_all(at("two") / file), read_all(at("r") / file));
+  EXPECT_NE(expect(2, render("r", {"--frames", "1..2", "-o", at("no").string()}))
+                .find("frame_0001.npy: is not there"),
+            std::string::npos);
+}
+
 TEST_F(RenderCommand, ANewLookElsewhere) {
   expect(0, run("r"));
   const auto before = tree(at("r"));
