@@ -5,6 +5,6 @@
 cd "$root"
 mapfile -t sources < <(git ls-files 'sim/*.cpp' 'sim/*.h' 'render/*.cpp' 'render/*.h' 'apps/*.cpp' 'apps/*.h' 'tests/*.cpp' 'tests/*.h')
 clang-format --dry-run -Werror "${sources[@]}"
-shellcheck -x apps/*.sh tests/*.sh tests/full/*.sh tests/checks/*.sh assets/*.sh .ci/run
+shellcheck -x apps/*.sh tests/*.sh tests/full/*.sh tests/checks/*.sh tests/bench/*.sh assets/*.sh .ci/run
 mapfile -t units < <(git ls-files 'sim/*.cpp' 'render/*.cpp' 'apps/*.cpp')
 printf '%s\0' "${units[@]}" | xargs -0 -n 4 -P 2 clang-tidy -p out/build/release --quiet --warnings-as-errors='*'

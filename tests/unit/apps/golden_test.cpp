@@ -12,8 +12,8 @@
 #include "tests/support/program.h"
 #include "tests/support/temporary_directory.h"
 
-/// Pictures of committed states (tests/golden/states) against committed pictures (tests/golden/<case>), so that physics cannot
-/// move them. The limits of each case stand in its golden.toml.
+/// Pictures of committed states (tests/golden/states) against committed pictures (tests/golden/<case>), so
+/// that physics cannot move them. The limits of each case stand in its golden.toml.
 namespace lagomorph::tests {
 namespace {
 
@@ -59,7 +59,8 @@ protected:
     mean_ = limits["limits"]["mean"].value<double>().value();
     tile_mean_ = limits["limits"]["tile_mean"].value<double>().value();
     backend_ = limits["backend"].value<std::string>().value();
-    for (const auto& file : fs::directory_iterator(golden / GetParam() / "frames")) frames_.push_back(file.path());
+    for (const auto& file : fs::directory_iterator(golden / GetParam() / "frames"))
+      frames_.push_back(file.path());
     std::sort(frames_.begin(), frames_.end());
     ASSERT_FALSE(frames_.empty());
   }
@@ -67,8 +68,8 @@ protected:
   fs::path draw(const TemporaryDirectory& directory, const fs::path& frame) const {
     const std::string number = std::to_string(std::stoi(frame.stem().string().substr(6)));
     const fs::path run = directory.path() / "run";
-    const Ended ended = run_program({"render", (golden / "states").string(), "--backend", backend_, "--frames", number,
-                                     "--out", run.string(), "--quiet"},
+    const Ended ended = run_program({"render", (golden / "states").string(), "--backend", backend_,
+                                     "--frames", number, "--out", run.string(), "--quiet"},
                                     directory);
     EXPECT_EQ(ended.status, 0) << ended.err;
     return run / "frames" / frame.filename();
@@ -90,7 +91,8 @@ TEST_P(Golden, PicturesOfCommittedStatesAreTheCommittedOnes) {
   }
 }
 
-// A golden that every picture passes is none: neighbouring frames and the other back end's picture are refused.
+// A golden that every picture passes is none: neighbouring frames and the other back end's picture are
+// refused.
 TEST_P(Golden, AnotherFrameFails) {
   ASSERT_GE(frames_.size(), 2U);
   const Difference d = difference(read_picture(frames_[0]), read_picture(frames_[1]));

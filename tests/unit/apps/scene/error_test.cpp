@@ -97,7 +97,8 @@ TEST(WrongScene, Ranges) {
   expect_told(
       {Wrong{"[time]\nfps = -3", "a.toml:2:7: time.fps = -3 is out of range; it must be > 0"},
        Wrong{"[time]\nfps = 0", "a.toml:2:7: time.fps = 0 is out of range; it must be > 0"},
-       Wrong{"[time]\nframes = 0", "a.toml:2:10: time.frames = 0 is out of range; it must be in 1 .. 10000000"},
+       Wrong{"[time]\nframes = 0",
+             "a.toml:2:10: time.frames = 0 is out of range; it must be in 1 .. 10000000"},
        Wrong{"[time]\nsubsteps = 3000000000",
              "a.toml:2:12: time.substeps = 3000000000 is out of range; it must be in 1 .. 2147483647"},
        Wrong{"[solver]\ntolerance = 1",

@@ -136,7 +136,8 @@ TEST_F(Resolved, FilesThatAreNotThereAreToldWithTheirPlace) {
   EXPECT_EQ(error_of("folder.msh"), ":2:8: body.0.mesh = 'folder.msh' is not a file");
   EXPECT_EQ(error_of("b.node"), ":2:8: body.0.mesh = 'b.node': there is no such file");
   directory.write("b.node", "");
-  EXPECT_EQ(error_of("b.node"), ":2:8: body.0.mesh = 'b.node' needs 'b.ele' beside it: there is no such file");
+  EXPECT_EQ(error_of("b.node"),
+            ":2:8: body.0.mesh = 'b.node' needs 'b.ele' beside it: there is no such file");
 }
 
 }  // namespace
