@@ -10,6 +10,7 @@ namespace lagomorph::apps {
 ExitStatus run_command(const Options&);       // run/commands: simulate and render
 ExitStatus simulate_command(const Options&);  // states and energies only
 ExitStatus render_command(const Options&);    // pictures from RUN's states
+ExitStatus check_command(const Options&);     // a run against its golden
 ExitStatus compare_command(const Options&);   // two pictures, one verdict
 ExitStatus info_command(const Options&);      // what a mesh, a scene or a run is
 

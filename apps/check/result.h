@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/cli/options.h"
+#include "render/image_compare/bias.h"
 #include "render/image_compare/compare.h"
 
 /// What a check found, as plain values. Every report (report.json, junit.xml, report.html, the job summary)
@@ -43,13 +44,6 @@ enum class DecidedBy {
 /// "bytes", ...
 std::string decided_by_name(DecidedBy);
 
-/// Of the signed mean of (new - golden) over R, G or B, in [-1, 1] of full scale: noise of either sign
-/// averages out of it, a cast, a missing or a moved object does not.
-struct BiasFigures {
-  double mean = 0;        // the channel's largest |mean| over the picture
-  render::TileMean tile;  // the largest |mean| of a tile of 16x16
-};
-
 /// A frame of RUN against the golden's of the same number.
 struct FrameResult {
   int frame = 0;
@@ -58,14 +52,15 @@ struct FrameResult {
   std::string variant;           // whose golden picture it was; empty: the golden's own
   DecidedBy decided_by = DecidedBy::nothing;
   std::vector<CheckFailure> failures;
-  std::optional<render::Figures> figures;  // none where nothing could be compared
-  std::optional<BiasFigures> bias;         // likewise
-  /// Of how the difference changed since the frame before: what flickers or pops. None for the first.
+  std::optional<render::Figures> figures;   // none where nothing could be compared
+  std::optional<render::BiasFigures> bias;  // likewise
+  /// The largest change of a tile's bias since the frame before: what flickers or pops. None for the first.
   std::optional<render::TileMean> flicker;
-  double masked = 0;               // share of the pixels that masks leave out, in [0, 1]
-  std::vector<std::string> hints;  // "shifted by 1 pixel to the right", "is the golden's frame 13"
-  std::string heat;                // picture of FLIP's errors, relative to CheckResult::out; empty: none
-  std::string panel;               // golden | new | heat in one picture, likewise
+  std::optional<double> flicker_mean;  // the same of the whole picture
+  double masked = 0;                   // share of the pixels that masks leave out, in [0, 1]
+  std::vector<std::string> hints;      // "shifted by 1 pixel to the right", "is the golden's frame 13"
+  std::string heat;                    // picture of FLIP's errors, relative to CheckResult::out; empty: none
+  std::string panel;                   // golden | new | heat in one picture, likewise
   double seconds = 0;
 
   bool passed() const { return failures.empty(); }

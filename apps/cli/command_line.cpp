@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "apps/check/limits.h"
 #include "apps/commands.h"
 #include "apps/nearest.h"
 #include "apps/version.h"
@@ -34,6 +35,8 @@ constexpr CommandRow commands[] = {
      "lagomorph simulate scenes/bar.toml --set body.0.density=500", simulate_command},
     {"render", "RUN", "draw pictures from the states of a run",
      "lagomorph render out/bunny --set camera.fov=25 -o out/closer", render_command},
+    {"check", "RUN GOLDEN", "hold the pictures of a run against a golden; reports go to RUN/check",
+     "lagomorph check out/bunny golden/bunny --set limits.flip_mean=0.02", check_command},
     {"compare", "A B", "tell whether two pictures are the same, and by how much they differ",
      "lagomorph compare golden.png new.png --heat heat.png", compare_command},
     {"info", "FILE", "tell what a mesh, a scene or a run is", "lagomorph info meshes/bunny.msh --json",
@@ -80,6 +83,22 @@ void apply_threads(Options& o, const std::string& value) {
   o.threads = n;
 }
 
+void apply_preset(Options& o, const std::string& value) {
+  const std::vector<std::string> names = preset_names();
+  if (std::find(names.begin(), names.end(), value) == names.end()) {
+    wrong_input(fmt::format("--preset {}: unknown; known are {}", value, joined(names)));
+  }
+  o.preset = value;
+}
+
+/// A name that becomes a folder's.
+std::string plain_name(const std::string& value, const char* option) {
+  if (non_empty(value, option).find('/') != std::string::npos || value.front() == '.') {
+    wrong_input(fmt::format("{} {}: must be a plain name", option, value));
+  }
+  return value;
+}
+
 void apply_ppd(Options& o, const std::string& value) {
   double n = 0;
   const char* end = value.data() + value.size();
@@ -91,29 +110,38 @@ void apply_ppd(Options& o, const std::string& value) {
 }
 
 constexpr OptionRow option_rows[] = {
-    {"-o,--out", "DIR", " run simulate render compare ", "where what is made is written",
+    {"-o,--out", "DIR", " run simulate render check compare ", "where what is made is written",
      [](Options& o, const std::string& v) { o.out = non_empty(v, "--out"); }},
     {"--set", "KEY=VALUE", " run simulate render info ",
      "a scene key, as in body.0.density=500; VALUE is TOML or a string", apply_set},
-    {"--frames", "A..B", " run simulate render ", "only pictures A to B, both included; or one number",
+    {"--set", "KEY=VALUE", " check ", "a key of golden.toml, as in limits.flip_mean=0.02", apply_set},
+    {"--frames", "A..B", " run simulate render check ", "only pictures A to B, both included; or one number",
      [](Options& o, const std::string& v) { o.frames = parse_frames(v); }},
     {"--backend", "NAME", " run render ", "raster or path, instead of the scene's", apply_backend},
-    {"--threads", "N", " run simulate render compare info ", "at most N threads; never changes a result",
-     apply_threads},
+    {"--threads", "N", " run simulate render check compare info ",
+     "at most N threads; never changes a result", apply_threads},
     {"--video", nullptr, " run render ", "also make RUN/<name>.mp4 of the pictures",
      [](Options& o, const std::string&) { o.video = true; }},
     {"--force", nullptr, " run simulate render ", "make anew what is there but does not match the scene",
      [](Options& o, const std::string&) { o.force = true; }},
-    {"--ppd", "N", " compare ", "pixels per degree of visual angle, for FLIP; by default 67.0206", apply_ppd},
+    {"--preset", "NAME", " check ", "exact, lsb, render or mc, instead of the golden's limits", apply_preset},
+    {"--variant", "NAME", " check ", "hold frames against this variant of the golden where it has them",
+     [](Options& o, const std::string& v) { o.variant = plain_name(v, "--variant"); }},
+    {"--ctest", nullptr, " check ", "print measurements as tags that CTest gives to CDash",
+     [](Options& o, const std::string&) { o.ctest = true; }},
+    {"--github", nullptr, " check ", "append to $GITHUB_STEP_SUMMARY, and print annotations",
+     [](Options& o, const std::string&) { o.github = true; }},
+    {"--ppd", "N", " check compare ", "pixels per degree of visual angle, for FLIP; by default 67.0206",
+     apply_ppd},
     {"--heat", "FILE", " compare ", "write where they differ as a PNG; with --out, DIR/heat.png",
      [](Options& o, const std::string& v) { o.heat = non_empty(v, "--heat"); }},
     {"--mend", "OUT", " info ", "write the tet mesh without its stray vertices to OUT",
      [](Options& o, const std::string& v) { o.mend = non_empty(v, "--mend"); }},
     {"--keys", nullptr, " info ", "print the table of scene keys",
      [](Options& o, const std::string&) { o.keys = true; }},
-    {"--quiet", nullptr, " run simulate render compare info ", "no progress, only errors",
+    {"--quiet", nullptr, " run simulate render check compare info ", "no progress, only errors",
      [](Options& o, const std::string&) { o.quiet = true; }},
-    {"--json", nullptr, " run simulate render compare info ", "print the result as JSON on stdout",
+    {"--json", nullptr, " run simulate render check compare info ", "print the result as JSON on stdout",
      [](Options& o, const std::string&) { o.json = true; }},
 };
 
@@ -229,13 +257,13 @@ void check_inputs(const CommandRow& command, const Options& options) {
 
 }  // namespace
 
-FrameRange parse_frames(const std::string& text) {
+FrameRange parse_frames(const std::string& text, const std::string& what) {
   const auto number = [&](std::string_view digits) {
     int n = -1;
     const char* end = digits.data() + digits.size();
     const auto [stop, error] = std::from_chars(digits.data(), end, n);
     if (error != std::errc() || stop != end || n < 0) {
-      wrong_input(fmt::format("--frames {}: must be A..B or one number, counted from 0", text));
+      wrong_input(fmt::format("{}{}: must be A..B or one number, counted from 0", what, text));
     }
     return n;
   };
@@ -247,8 +275,8 @@ FrameRange parse_frames(const std::string& text) {
   }
   const FrameRange range{number(all.substr(0, dots)), number(all.substr(dots + 2))};
   if (range.first > range.last) {
-    wrong_input(fmt::format("--frames {}: the first frame, {}, is after the last, {}", text, range.first,
-                            range.last));
+    wrong_input(
+        fmt::format("{}{}: the first frame, {}, is after the last, {}", what, text, range.first, range.last));
   }
   return range;
 }

@@ -21,7 +21,8 @@ CommandLine parse_command_line(std::span<const std::string> arguments);
 /// What `lagomorph --help` prints.
 std::string program_help();
 
-/// "A..B" or "N" as an inclusive range of frames. Throws Error(wrong_input).
-FrameRange parse_frames(const std::string& text);
+/// "A..B" or "N" as an inclusive range of frames. Throws Error(wrong_input) that begins with `what` and the
+/// text.
+FrameRange parse_frames(const std::string& text, const std::string& what = "--frames ");
 
 }  // namespace lagomorph::apps

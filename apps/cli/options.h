@@ -30,6 +30,10 @@ struct Options {
   bool keys = false;                          // info --keys: the table of scene keys
   std::optional<double> pixels_per_degree;    // compare, check --ppd
   std::optional<std::filesystem::path> heat;  // compare --heat FILE.png
+  std::optional<std::string> preset;          // check --preset
+  std::optional<std::string> variant;         // check, approve --variant
+  bool ctest = false;                         // check --ctest
+  bool github = false;                        // check --github
 };
 
 }  // namespace lagomorph::apps

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "apps/error.h"
+#include "apps/frame_ranges.h"
 #include "apps/info/info.h"
 #include "apps/run/paths.h"
 #include "apps/run/record.h"
@@ -14,19 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-/// "0..11, 13": ascending frames as ranges.
-std::string ranges_text(const std::vector<int>& frames) {
-  std::string text;
-  for (std::size_t i = 0; i < frames.size();) {
-    std::size_t last = i;
-    while (last + 1 < frames.size() && frames[last + 1] == frames[last] + 1) ++last;
-    text += (text.empty() ? "" : ", ") + std::to_string(frames[i]);
-    if (last > i) text += ".." + std::to_string(frames[last]);
-    i = last + 1;
-  }
-  return text.empty() ? "none" : text;
-}
 
 /// What the frames' records add up to.
 struct Sums {

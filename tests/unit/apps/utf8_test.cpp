@@ -21,5 +21,11 @@ TEST(Utf8, RefusesEverythingElse) {
   }
 }
 
+TEST(Utf8, InvalidBytesAreReplaced) {
+  EXPECT_EQ(valid_utf8("a\xC3\xA4"), "a\xC3\xA4");
+  EXPECT_EQ(valid_utf8("a\xFF\xC3"), "a\xEF\xBF\xBD\xEF\xBF\xBD");
+  EXPECT_EQ(valid_utf8(""), "");
+}
+
 }  // namespace
 }  // namespace lagomorph::apps

@@ -77,7 +77,7 @@ TEST(CommandLine, TellsHelpAndVersion) {
     EXPECT_EQ(parse({"run", help}).text.find("Usage: lagomorph run SCENE.toml [options]\n"), 0U);
     EXPECT_EQ(parse({"render", "a", "b", "--nonsense", help}).text.find("Usage: lagomorph render RUN"), 0U);
   }
-  for (const char* command : {"run", "simulate", "render", "compare", "info"}) {
+  for (const char* command : {"run", "simulate", "render", "check", "compare", "info"}) {
     EXPECT_NE(program_help().find(std::string("\n  ") + command + " "), std::string::npos) << command;
     const std::string text = parse({command, "--help"}).text;
     for (const char* part : {"Options:\n", "--quiet", "--json", "\nExample: lagomorph ", "\nExit status: "}) {
@@ -88,8 +88,8 @@ TEST(CommandLine, TellsHelpAndVersion) {
 }
 
 TEST(CommandLine, HelpFitsATerminal) {
-  for (const std::string& text :
-       {program_help(), parse({"run", "--help"}).text, parse({"info", "--help"}).text}) {
+  for (const std::string& text : {program_help(), parse({"run", "--help"}).text,
+                                  parse({"check", "--help"}).text, parse({"info", "--help"}).text}) {
     std::size_t begin = 0;
     for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
       EXPECT_LE(end - begin, 100U) << text.substr(begin, end - begin);
@@ -104,10 +104,11 @@ TEST(CommandLine, TellsWhatIsWrong) {
   } cases[] = {
       {{}, "no command given; lagomorph --help lists them"},
       {{"rnu"},
-       "unknown command 'rnu'; did you mean 'run'? Commands are run, simulate, render, compare, info"},
-      {{"publish"}, "unknown command 'publish'; commands are run, simulate, render, compare, info"},
+       "unknown command 'rnu'; did you mean 'run'? Commands are run, simulate, render, check, compare, info"},
+      {{"publish"}, "unknown command 'publish'; commands are run, simulate, render, check, compare, info"},
       {{"--quiet", "run"},
-       "'--quiet' where a command is expected (run, simulate, render, compare, info); options follow the "
+       "'--quiet' where a command is expected (run, simulate, render, check, compare, info); options follow "
+       "the "
        "command"},
       {{"run"}, "run needs a SCENE.toml: lagomorph run SCENE.toml [options]"},
       {{"run", "a", "b"}, "unexpected argument 'b': lagomorph run SCENE.toml [options]"},
@@ -134,6 +135,10 @@ TEST(CommandLine, TellsWhatIsWrong) {
       {{"compare"}, "compare needs A B: lagomorph compare A B [options]"},
       {{"compare", "a"}, "compare needs B: lagomorph compare A B [options]"},
       {{"compare", "a", "b", "c"}, "unexpected argument 'c': lagomorph compare A B [options]"},
+      {{"check", "a"}, "check needs GOLDEN: lagomorph check RUN GOLDEN [options]"},
+      {{"check", "a", "b", "--preset", "strict"},
+       "--preset strict: unknown; known are exact, lsb, render, mc"},
+      {{"check", "a", "b", "--variant", "../x"}, "--variant ../x: must be a plain name"},
       {{"compare", "a", "b", "--ppd", "0"}, "--ppd 0: must be a number in 1 .. 1000"},
       {{"compare", "a", "b", "--ppd", "nan"}, "--ppd nan: must be a number in 1 .. 1000"},
       {{"compare", "a", "b", "--ppd", "67x"}, "--ppd 67x: must be a number in 1 .. 1000"},

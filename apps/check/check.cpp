@@ -1,0 +1,275 @@
+#include "apps/check/check.h"
+
+#include <algorithm>
+#include <mutex>
+#include <set>
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+
+#include "apps/check/compare_frame.h"
+#include "apps/check/golden_file.h"
+#include "apps/check/golden_folder.h"
+#include "apps/check/heat.h"
+#include "apps/check/probe.h"
+#include "apps/check/run_hashes.h"
+#include "apps/check/sequence.h"
+#include "apps/error.h"
+#include "apps/file_io.h"
+#include "apps/frame_ranges.h"
+#include "apps/hash.h"
+#include "apps/pipeline/stop.h"
+#include "apps/pipeline/stopwatch.h"
+#include "render/png_read.h"
+
+namespace lagomorph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The name that reports give to the golden.
+std::string name_of(const fs::path& golden) {
+  const fs::path whole = fs::absolute(golden).lexically_normal();
+  const fs::path last = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
+  return last.empty() ? "golden" : last.string();
+}
+
+class Check {
+public:
+  Check(const CheckRequest& request, Progress& progress)
+      : request_(request),
+        progress_(progress),
+        file_(read_golden_file(request.golden, request.set, request.preset)),
+        run_(list_pictures(request.run, "run")),
+        golden_(read_golden_folder(request.golden)),
+        masks_(file_.masks) {
+    if (request.pixels_per_degree) file_.pixels_per_degree = *request.pixels_per_degree;
+    if (request.variant && !golden_.variants.contains(*request.variant)) {
+      wrong_input(
+          fmt::format("--variant {}: {} has no such variant", *request.variant, request.golden.string()));
+    }
+    choose_frames();
+  }
+
+  CheckResult run() {
+    const Stopwatch watch;
+    if (request_.pictures) remove_heat(request_.out);
+    CheckResult result;
+    result.run = request_.run;
+    result.golden = request_.golden;
+    result.out = request_.out;
+    result.name = name_of(request_.golden);
+    result.preset = file_.preset();
+    result.limits = file_.limits().told();
+    result.pixels_per_degree = file_.pixels_per_degree;
+    result.frames.resize(numbers_.size());
+    progress_.begin(static_cast<int>(numbers_.size()));
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, numbers_.size(), 1),
+        [&](const auto& range) {
+          for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            if (stop_asked()) throw Error(stop_status(), "stopped: no report was written");
+            result.frames[i] = judge(numbers_[i]);
+            progress_.frame_done();
+          }
+        },
+        tbb::simple_partitioner());
+    progress_.end();
+    judge_flicker(result.frames, biases_, file_);
+    draw_flickering(result.frames);
+    result.sequence = analyse_sequence(result.frames, probes_);
+    result.remarks = remarks();
+    result.seconds = watch.seconds();
+    return result;
+  }
+
+private:
+  /// The union of both sides' frames, within --frames. One pair at least, or all of it is a mistake.
+  void choose_frames() {
+    std::set<int> all = golden_.frames();
+    const std::set<int> known = all;
+    for (const auto& [frame, file] : run_.pictures) all.insert(frame);
+    bool paired = false;
+    for (const int frame : all) {
+      if (request_.frames && (frame < request_.frames->first || frame > request_.frames->last)) continue;
+      const bool in_run = run_.pictures.contains(frame), in_golden = known.contains(frame);
+      paired |= in_run && in_golden;
+      if (in_run && !in_golden && file_.ignore_extra) {
+        ignored_.push_back(frame);
+      } else {
+        numbers_.push_back(frame);
+      }
+    }
+    if (request_.frames && !all.empty() && request_.frames->last > *all.rbegin()) {
+      wrong_input(fmt::format("--frames {}..{}: the last frame of {} and {} is {}", request_.frames->first,
+                              request_.frames->last, request_.run.string(), request_.golden.string(),
+                              *all.rbegin()));
+    }
+    if (paired) return;
+    const auto frames_text = [](const auto& frames) {
+      std::vector<int> list;
+      for (const auto& entry : frames) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(entry)>, int>) {
+          list.push_back(entry);
+        } else {
+          list.push_back(entry.first);
+        }
+      }
+      return ranges_text(list);
+    };
+    wrong_input(fmt::format(
+        "no frame can be checked: {} has pictures of frames {}, {} of {}{}", run_.folder.string(),
+        frames_text(run_.pictures), golden_.own.folder.string(), frames_text(known),
+        request_.frames
+            ? fmt::format(", and only {}..{} are asked for", request_.frames->first, request_.frames->last)
+            : ""));
+  }
+
+  FrameResult judge(int frame) {
+    const Stopwatch watch;
+    FrameResult result = judge_what_is_there(frame);
+    result.seconds = watch.seconds();
+    return result;
+  }
+
+  FrameResult judge_what_is_there(int frame) {
+    FrameResult result;
+    result.frame = frame;
+    result.fresh = run_.of(frame);
+    const std::vector<GoldenFolder::Candidate> candidates = golden_.candidates(frame, request_.variant);
+    if (!candidates.empty()) result.golden = candidates.front().picture;
+    const auto hash = golden_.hashes.find(frame);
+    const bool has_golden = !candidates.empty() || hash != golden_.hashes.end();
+    if (result.fresh.empty()) {
+      result.failures.push_back(
+          {"missing", fmt::format("in {}: it has no picture of frame {}", run_.folder.string(), frame), "",
+           ""});
+      return result;
+    }
+    if (!has_golden) {
+      result.failures.push_back(
+          {"extra", fmt::format("in {}: the golden has no frame {}", run_.folder.string(), frame), "", ""});
+      return result;
+    }
+    if (candidates.empty()) return judge_hash(std::move(result), hash->second);
+    return judge_pictures(frame, candidates);
+  }
+
+  /// The first candidate that passes; when none does, the first.
+  FrameResult judge_pictures(int frame, const std::vector<GoldenFolder::Candidate>& candidates) {
+    const Limits limits = file_.limits(frame);
+    std::optional<ComparedFrame> first;
+    for (const GoldenFolder::Candidate& candidate : candidates) {
+      ComparedFrame compared = compare_frame({frame, candidate.picture, run_.of(frame), candidate.variant},
+                                             limits, masks_, file_.pixels_per_degree);
+      if (compared.result.passed()) {
+        keep(compared);
+        return std::move(compared.result);
+      }
+      if (!first) first = std::move(compared);
+    }
+    keep(*first);
+    if (first->flip) {
+      const Probe probe = probe_frame(golden_.own, frame, *first->golden, *first->fresh);
+      first->result.hints = probe.hints();
+      if (request_.pictures) write_heat(request_.out, *first);
+      const std::lock_guard lock(mutex_);
+      probes_[frame] = probe;
+    }
+    return std::move(first->result);
+  }
+
+  FrameResult judge_hash(FrameResult result, const PictureHash& golden) {
+    try {
+      const std::string bytes = read_file(result.fresh);
+      result.decided_by = DecidedBy::hash;
+      ComparedFrame told;
+      told.result.frame = result.frame;
+      told.fresh_sha256 = sha256(bytes);
+      keep(told);
+      if (told.fresh_sha256 == golden.file) return result;
+      const std::string pixels = pixels_sha256(render::read_png(bytes, result.fresh.string()));
+      if (pixels == golden.pixels) return result;
+      result.failures.push_back(
+          {"hash",
+           fmt::format("of the pixels is {:.12}, the golden's {:.12}, and its picture is not kept", pixels,
+                       golden.pixels),
+           "", ""});
+    } catch (const Error& error) {
+      if (error.status != ExitStatus::wrong_input) throw;
+      result.failures.push_back({"unreadable", error.what(), "", ""});
+    } catch (const render::PictureError& error) {
+      result.failures.push_back({"unreadable", error.what(), "", ""});
+    }
+    return result;
+  }
+
+  void keep(const ComparedFrame& compared) {
+    const std::lock_guard lock(mutex_);
+    if (compared.result.figures) biases_[compared.result.frame] = compared.bias;
+    if (!compared.fresh_sha256.empty()) hashes_[compared.result.frame] = compared.fresh_sha256;
+  }
+
+  /// Heat of frames that fail only beside their neighbours.
+  void draw_flickering(std::vector<FrameResult>& frames) {
+    if (!request_.pictures) return;
+    for (FrameResult& frame : frames) {
+      if (frame.passed() || !frame.flicker || !frame.heat.empty() || frame.golden.empty()) continue;
+      if (frame.decided_by != DecidedBy::metrics) continue;  // there is nothing to see in it alone
+      Limits none;
+      none[LimitName::max_abs] = {-1.0, ""};  // keeps the pictures
+      ComparedFrame again = compare_frame({frame.frame, frame.golden, frame.fresh, frame.variant}, none,
+                                          masks_, file_.pixels_per_degree);
+      if (!again.flip) continue;
+      write_heat(request_.out, again);
+      frame.heat = again.result.heat;
+      frame.panel = again.result.panel;
+    }
+  }
+
+  std::vector<std::string> remarks() const {
+    std::vector<std::string> all;
+    for (const PictureFolder* folder : {&run_, &golden_.own}) {
+      if (folder->unnumbered.empty()) continue;
+      all.push_back(fmt::format("{}: {} without a number left out, as {}", folder->folder.string(),
+                                folder->unnumbered.size() == 1
+                                    ? "1 picture"
+                                    : fmt::format("{} pictures", folder->unnumbered.size()),
+                                folder->unnumbered.front()));
+    }
+    if (!ignored_.empty()) {
+      all.push_back(
+          fmt::format("frames that only the run has are ignored by golden.toml: {}", ranges_text(ignored_)));
+    }
+    const std::vector<int> others = pictures_unlike_run_json(request_.run, hashes_);
+    if (!others.empty()) {
+      all.push_back(
+          fmt::format("{}: tells other hashes than the pictures have, of frames {}; the pictures were judged",
+                      (request_.run / "run.json").string(), ranges_text(others)));
+    }
+    return all;
+  }
+
+  const CheckRequest& request_;
+  Progress& progress_;
+  GoldenFile file_;
+  PictureFolder run_;
+  GoldenFolder golden_;
+  Masks masks_;
+  std::vector<int> numbers_;  // of the frames that are judged, ascending
+  std::vector<int> ignored_;
+  std::mutex mutex_;  // of what follows
+  std::map<int, render::TileBias> biases_;
+  std::map<int, Probe> probes_;
+  std::map<int, std::string> hashes_;  // sha-256 of RUN's pictures
+};
+
+}  // namespace
+
+CheckResult check_run(const CheckRequest& request, Progress& progress) {
+  return Check(request, progress).run();
+}
+
+}  // namespace lagomorph::apps

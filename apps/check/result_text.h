@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "apps/check/result.h"
+
+namespace lagomorph::apps {
+
+/// What `check` prints for people: what is to blame, the verdict, the worst frames with every rule they
+/// break, runs of bad frames, remarks, where the reports are.
+std::string check_text(const CheckResult&);
+
+}  // namespace lagomorph::apps

@@ -1,0 +1,66 @@
+#include "tests/support/check_fixture.h"
+
+/// The list of cases that tell a check's worth: what nobody sees passes by the defaults, what one looks for
+/// fails.
+namespace lagomorph::tests {
+namespace {
+
+struct Case {
+  const char* name;
+  std::string golden, fresh;        // PNG files
+  std::vector<std::string> passes;  // presets
+};
+
+std::vector<Case> cases() {
+  std::uint32_t state = 5;
+  const auto random = [&state] {
+    state = state * 1664525U + 1013904223U;
+    return static_cast<double>((state >> 16U) % 3U) - 1;
+  };
+  const std::string spheres = flip_file("spheres_ref.png");
+  const auto with = [&](const auto& change) { return changed_png("spheres_ref.png", change); };
+  return {
+      {"equal", spheres, spheres, {"exact", "lsb", "render", "mc"}},
+      {"recompressed",
+       spheres,
+       with([](double v, std::size_t) { return v; }),
+       {"exact", "lsb", "render", "mc"}},
+      {"plus_minus_1",
+       spheres,
+       with([&](double v, std::size_t) { return v + random(); }),
+       {"lsb", "render", "mc"}},
+      {"plus_1", spheres, with([](double v, std::size_t) { return v + 1; }), {"lsb", "render", "mc"}},
+      {"anti_aliasing", flip_file("edge_ref.png"), flip_file("edge_aa.png"), {"render", "mc"}},
+      {"256_samples", spheres, flip_file("spheres_mc256.png"), {"render", "mc"}},
+      {"16_samples", spheres, flip_file("spheres_mc16.png"), {"mc"}},
+      {"missing", spheres, flip_file("spheres_missing.png"), {}},
+      {"moved", spheres, flip_file("spheres_moved.png"), {}},
+      {"gamma", spheres, with([](double v, std::size_t) { return 255 * std::pow(v / 255, 1 / 1.1); }), {}},
+      {"cast", spheres, with([](double v, std::size_t i) { return i % 3 == 2 ? 0.85 * v : v; }), {}},
+      {"shifted", spheres, shifted_png("spheres_ref.png", 1, 0), {}},
+      {"black_white", flip_file("black.png"), flip_file("white.png"), {}},
+      {"other_colour", flip_file("blue.png"), flip_file("green.png"), {}},
+  };
+}
+
+class CheckCases : public CheckFixture, public testing::WithParamInterface<int> {};
+
+TEST_P(CheckCases, AreSortedRightly) {
+  const Case c = cases()[static_cast<std::size_t>(GetParam())];
+  add_golden(0, c.golden);
+  add_run(0, c.fresh);
+  for (const std::string preset : {"exact", "lsb", "render", "mc"}) {
+    const bool passes = std::find(c.passes.begin(), c.passes.end(), preset) != c.passes.end();
+    const Ended ended = check({"--preset", preset});
+    EXPECT_EQ(ended.status, passes ? 0 : 1) << c.name << " by " << preset << "\n" << ended.out << ended.err;
+    if (preset == "render") {  // the default
+      EXPECT_EQ(check().status, ended.status) << c.name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, CheckCases, testing::Range(0, 14),
+                         [](const auto& info) { return cases()[static_cast<std::size_t>(info.param)].name; });
+
+}  // namespace
+}  // namespace lagomorph::tests
