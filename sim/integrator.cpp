@@ -1,5 +1,6 @@
 #include "sim/integrator.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/error.h"
@@ -35,6 +36,10 @@ struct Row {
 constexpr Row kTable[] = {
     {"backward_euler", make_backward_euler},
     {"linearly_implicit_euler", make_linearly_implicit_euler},
+    {"bdf2", make_bdf2},
+    {"implicit_midpoint", make_implicit_midpoint},
+    {"trapezoidal", make_trapezoidal},
+    {"symplectic_euler", make_symplectic_euler},
 };
 
 void check(const TimeSettings& time) {
@@ -45,6 +50,11 @@ void check(const TimeSettings& time) {
 }
 
 }  // namespace
+
+bool is_defined(const Model& model, const VecX& q) {
+  return std::all_of(model.energies().begin(), model.energies().end(),
+                     [&](const auto& term) { return std::isfinite(term->value(q)); });
+}
 
 std::vector<std::string> integrator_names() {
   std::vector<std::string> names;
@@ -72,7 +82,7 @@ bool advance(const Model& model, Integrator& integrator, const SolverSettings& s
   const StepReport step = integrator.step(model, state, h);
   report.newton_iterations += step.newton_iterations;
   if (is_good(step.status)) {
-    ++report.steps;
+    report.steps += step.steps;
     report.halvings = std::max(report.halvings, depth);
     report.residual = std::max(report.residual, step.residual);
     if (step.status == StepStatus::rounding_floor) report.hit_rounding_floor = true;

@@ -27,6 +27,7 @@ struct StepReport {
   int newton_iterations = 0;
   double residual = 0.0;  // |g_free| / |(M g)_free|, as the tolerance is measured
   double h = 0.0;         // step [s]
+  int steps = 1;          // that an explicit scheme had to divide it into to stay stable
 };
 
 /// An implicit (or explicit) scheme. Holds no state of the motion: only factors and buffers that are made

@@ -33,8 +33,7 @@ public:
     StepReport report = solve(model, b, h, qdot1);
     if (!is_good(report.status)) return report;
     const VecX q1 = state.q + h * qdot1;
-    for (const auto& term : model.energies())
-      if (!std::isfinite(term->value(q1))) report.status = StepStatus::not_finite;  // an element has inverted
+    if (!is_defined(model, q1)) report.status = StepStatus::not_finite;
     if (!is_good(report.status)) return report;
     state.q = q1;
     state.qdot = std::move(qdot1);

@@ -27,6 +27,7 @@ struct State {
   VecX q;          // positions, 3n [m]
   VecX qdot;       // velocities, 3n [m/s]
   struct Level {
+    double t = 0.0;  // [s]
     VecX q, qdot;
   };
   std::vector<Level> history;  // levels before this one; empty for one-step schemes

@@ -1,11 +1,14 @@
 #include "apps/pipeline/state_source.h"
 
 #include <filesystem>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "apps/file_io.h"
 #include "apps/pipeline/stopwatch.h"
+#include "apps/run/record.h"
 #include "apps/run/state_file.h"
 
 namespace lagomorph::apps {
@@ -16,7 +19,11 @@ StateSource::StateSource(const SceneDesc& scene, const sim::Model& model, sim::I
 
 sim::State StateSource::read(int frame) const {
   const std::filesystem::path file = paths_.state(frame);
-  return decode_state(read_file(file), file.string(), frame, scene_.time.fps, model_.mesh().vertex_count());
+  const std::optional<FrameRecord> record = read_record(paths_, frame);
+  const std::vector<double> times =
+      record && record->state ? record->state->history_times : std::vector<double>();
+  return decode_state(read_file(file), file.string(), frame, scene_.time.fps, model_.mesh().vertex_count(),
+                      times);
 }
 
 bool StateSource::simulate(int frame, sim::State& state, StateRecord& record) {
@@ -33,6 +40,7 @@ bool StateSource::simulate(int frame, sim::State& state, StateRecord& record) {
     }
   }
   record.time = state.t;
+  for (const sim::State::Level& level : state.history) record.history_times.push_back(level.t);
   record.energy = model_.energies_of(state);
   record.mass = model_.total_mass();
   record.momentum = model_.momentum(state);

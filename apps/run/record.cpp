@@ -23,6 +23,8 @@ FrameRecord from_json(const Json& json) {
     state.sha256 = json.at("state_sha256").get<std::string>();
     state.made_by = json.at("state_made_by").get<std::string>();
     state.time = json.at("time").get<double>();
+    if (json.contains("history_times"))
+      state.history_times = json.at("history_times").get<std::vector<double>>();
     const Json& energy = json.at("energy");
     state.energy = {energy.at("kinetic").get<double>(), energy.at("elastic").get<double>(),
                     energy.at("gravitational").get<double>()};
@@ -56,6 +58,7 @@ Json to_json(const FrameRecord& record) {
   if (record.state) {
     const StateRecord& state = *record.state;
     json["time"] = state.time;
+    if (!state.history_times.empty()) json["history_times"] = state.history_times;
     json["state_sha256"] = state.sha256;
     json["state_made_by"] = state.made_by;
     json["steps"] = state.report.steps;
@@ -87,20 +90,26 @@ void write_record(const RunPaths& paths, const FrameRecord& record) {
   write_file(paths.record(record.frame), to_json(record).dump(1) + "\n");
 }
 
+std::optional<FrameRecord> read_record(const RunPaths& paths, int frame) {
+  try {
+    FrameRecord record = from_json(Json::parse(read_file(paths.record(frame))));
+    if (record.frame == frame) return record;
+  } catch (const Json::exception&) {
+    // of another version, or damaged
+  } catch (const Error&) {
+    // unreadable
+  }
+  return std::nullopt;
+}
+
 std::map<int, FrameRecord> read_records(const RunPaths& paths) {
   std::map<int, FrameRecord> records;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(paths.records(), error)) {
     const std::optional<int> frame = frame_of(entry.path(), ".json");
     if (!frame) continue;
-    try {
-      FrameRecord record = from_json(Json::parse(read_file(entry.path())));
-      if (record.frame == *frame) records.emplace(*frame, std::move(record));
-    } catch (const Json::exception&) {
-      // of another version, or damaged
-    } catch (const Error&) {
-      // unreadable
-    }
+    if (std::optional<FrameRecord> record = read_record(paths, *frame))
+      records.emplace(*frame, std::move(*record));
   }
   return records;
 }

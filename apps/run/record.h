@@ -15,9 +15,10 @@ namespace lagomorph::apps {
 
 /// A state on disk, and what is told of it.
 struct StateRecord {
-  std::string sha256;   // of the file
-  std::string made_by;  // Identity::state of the run that made it
-  double time = 0.0;    // [s]
+  std::string sha256;                 // of the file
+  std::string made_by;                // Identity::state of the run that made it
+  double time = 0.0;                  // [s]
+  std::vector<double> history_times;  // of its levels before this one, newest first [s]
   sim::Energies energy;
   double mass = 0.0;                       // [kg]
   sim::Vec3 momentum = sim::Vec3::Zero();  // [kg m/s]
@@ -44,6 +45,9 @@ struct FrameRecord {
 
 nlohmann::ordered_json to_json(const FrameRecord&);
 void write_record(const RunPaths&, const FrameRecord&);
+
+/// One frame's record; nothing when there is none that can be read.
+std::optional<FrameRecord> read_record(const RunPaths&, int frame);
 
 /// Every record that can be read, by frame. What is no record of ours is left out: its frame is made again.
 std::map<int, FrameRecord> read_records(const RunPaths&);

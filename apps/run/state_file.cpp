@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "apps/error.h"
@@ -31,7 +32,7 @@ std::string encode_state(const sim::State& state) {
 }
 
 sim::State decode_state(std::string_view bytes, const std::string& origin, int frame, double fps,
-                        int vertices) {
+                        int vertices, std::span<const double> history_times) {
   const NpyArray array = read_npy(bytes, origin);
   const std::vector<std::size_t>& shape = array.shape;
   if (shape.size() != 4 || shape[0] < 1 || shape[1] != 2 || shape[2] != static_cast<std::size_t>(vertices) ||
@@ -57,6 +58,8 @@ sim::State decode_state(std::string_view bytes, const std::string& origin, int f
   state.qdot = take();
   for (std::size_t level = 1; level < shape[0]; ++level) {
     sim::State::Level older;
+    older.t =
+        level <= history_times.size() ? history_times[level - 1] : std::numeric_limits<double>::quiet_NaN();
     older.q = take();
     older.qdot = take();
     state.history.push_back(std::move(older));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -11,10 +12,11 @@ namespace lagomorph::apps {
 /// and velocities [m/s].
 std::string encode_state(const sim::State&);
 
-/// The state of a file's bytes. `origin` names the file. Throws Error(wrong_input) for anything but a finite
-/// state of `vertices` vertices.
+/// The state of a file's bytes. `origin` names the file. `history_times` are those of the record's levels,
+/// newest first; a level without one has NaN. Throws Error(wrong_input) for anything but a finite state of
+/// `vertices` vertices.
 sim::State decode_state(std::string_view bytes, const std::string& origin, int frame, double fps,
-                        int vertices);
+                        int vertices, std::span<const double> history_times = {});
 
 /// Size of such a file. [bytes]
 std::size_t state_file_size(int vertices, int levels);

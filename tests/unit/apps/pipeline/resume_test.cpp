@@ -43,6 +43,16 @@ TEST_F(Resume, AfterKills) {
   expect_same_run(at("whole"), at("r"));
 }
 
+// A level of history and its time come back from disk, so that no step is made anew by backward Euler.
+TEST_F(Resume, OfAMultistepScheme) {
+  const Arguments bdf2 = eight + Arguments{"--set", "time.integrator=bdf2", "--set", "time.substeps=2"};
+  expect(0, simulate("bdf2", bdf2));
+  expect(0, simulate("r", bdf2 + Arguments{"--frames", "3"}));
+  EXPECT_EQ(run_json("r").at("frames").at(2).at("history_times").size(), 1U);
+  expect(0, simulate("r", bdf2));
+  expect_same_run(at("bdf2"), at("r"));
+}
+
 TEST_F(Resume, KilledBeforeTheFirstFrame) {
   Program program(run("r", eight));
   ASSERT_TRUE(program.wait_until([&] { return fs::exists(at("r")); }));

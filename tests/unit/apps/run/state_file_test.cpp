@@ -22,7 +22,7 @@ sim::State some_state(int older_levels) {
   state.q = numbers(0.0);
   state.qdot = numbers(10.0);
   for (int level = 1; level <= older_levels; ++level) {
-    state.history.push_back({numbers(100.0 * level), numbers(100.0 * level + 10.0)});
+    state.history.push_back({1.0 / level, numbers(100.0 * level), numbers(100.0 * level + 10.0)});
   }
   return state;
 }
@@ -52,12 +52,14 @@ TEST(StateFile, IsLevelsThenPositionsAndVelocities) {
 TEST(StateFile, ReadsBackBitByBit) {
   sim::State state = some_state(2);
   state.q[3] = 0.1 + 0.2;
-  const sim::State read = decode_state(encode_state(state), "a", 7, 30.0, 2);
+  const sim::State read =
+      decode_state(encode_state(state), "a", 7, 30.0, 2, std::array{state.history[0].t, state.history[1].t});
   EXPECT_EQ(read.frame, 7);
   EXPECT_EQ(read.t, state.t);
   EXPECT_EQ(read.q, state.q);
   EXPECT_EQ(read.qdot, state.qdot);
   ASSERT_EQ(read.history.size(), 2U);
+  EXPECT_EQ(read.history[1].t, 0.5);
   EXPECT_EQ(read.history[1].q, state.history[1].q);
   EXPECT_EQ(read.history[1].qdot, state.history[1].qdot);
 }
