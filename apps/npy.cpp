@@ -48,9 +48,9 @@ public:
     const std::string quoted = fmt::format("'{}'", key);
     std::size_t at = rest_.find(quoted);
     if (at == std::string_view::npos) return std::nullopt;
-    at = rest_.find_first_not_of(" ", at + quoted.size());
+    at = rest_.find_first_not_of(' ', at + quoted.size());
     if (at == std::string_view::npos || rest_[at] != ':') return std::nullopt;
-    at = rest_.find_first_not_of(" ", at + 1);
+    at = rest_.find_first_not_of(' ', at + 1);
     if (at == std::string_view::npos) return std::nullopt;
     return rest_.substr(at);
   }

@@ -22,10 +22,11 @@ CoatAlbedo coat_albedo(float cos_view, float roughness) {
     const double z = (1.0 - (i + 0.5) / samples) * (1.0 + vz / length) - vz / length;
     const double radius = std::sqrt(std::max(1.0 - z * z, 0.0));
     double hx = a * (radius * std::cos(phi) + a * vx / length);
-    double hy = a * radius * std::sin(phi);
+    const double hy = a * radius * std::sin(phi);
     double hz = std::max(z + vz / length, 1e-9);
     const double norm = std::sqrt(hx * hx + hy * hy + hz * hz);
-    hx /= norm, hy /= norm, hz /= norm;
+    hx /= norm;
+    hz /= norm;
     const double vh = vx * hx + vz * hz;
     const double lz = 2.0 * vh * hz - vz;
     if (lz <= 0.0) continue;

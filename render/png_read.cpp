@@ -68,7 +68,8 @@ Pixels read_png(std::string_view bytes, const std::string& name) {
   Job job{.bytes = bytes, .sixteen_bits = header.bit_depth == 16, .rows = rows.data()};
   std::visit(
       [&](auto& samples) {
-        const auto row = static_cast<std::size_t>(header.width * pixels.samples_per_pixel());
+        const auto row =
+            static_cast<std::size_t>(header.width) * static_cast<std::size_t>(pixels.samples_per_pixel());
         samples.resize(row * rows.size());
         job.row_bytes = row * sizeof samples[0];
         for (std::size_t y = 0; y < rows.size(); ++y)

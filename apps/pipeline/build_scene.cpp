@@ -21,7 +21,7 @@ std::string size_of(const sim::Points& X) {
 
 void note_all(Progress& progress, const std::string& origin, const sim::Remarks& remarks) {
   for (const std::string& remark : remarks) {
-    progress.note(remark.starts_with(origin) ? remark : origin + ": " + remark);
+    progress.note(remark.starts_with(origin) ? remark : fmt::format("{}: {}", origin, remark));
   }
 }
 

@@ -1,6 +1,7 @@
 #include "apps/progress/progress.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
@@ -44,7 +45,7 @@ std::string rate_text(int done, int frames, double seconds) {
 }  // namespace
 
 std::string duration_text(double seconds) {
-  const long s = static_cast<long>(std::max(0.0, seconds) + 0.5);
+  const long s = std::lround(std::max(0.0, seconds));
   if (seconds < 9.95) return fmt::format("{:.1f} s", std::max(0.0, seconds));
   if (s < 60) return fmt::format("{} s", s);
   if (s < 3600) return fmt::format("{}:{:02}", s / 60, s % 60);

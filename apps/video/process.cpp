@@ -81,6 +81,7 @@ ProcessResult run_process(const std::vector<std::string>& command, const std::fu
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) fail(command.front(), errno);
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
   pid_t child = 0;

@@ -159,7 +159,7 @@ void RayCaster::build(std::span<const Mesh> meshes) {
     void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                               sizeof(Triangle), mesh.triangles.size());
     if (positions != nullptr && triangles != nullptr) {
-      std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * sizeof(Vec3));
+      std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<Vec3*>(positions));
       std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * sizeof(Triangle));
       rtcCommitGeometry(geometry);
       rtcAttachGeometryByID(impl_->scene, geometry, static_cast<unsigned>(impl_->geometries.size()));
@@ -174,8 +174,8 @@ void RayCaster::build(std::span<const Mesh> meshes) {
 void RayCaster::move(int mesh, std::span<const Vec3> positions) {
   RTCGeometry geometry = impl_->geometries[static_cast<std::size_t>(mesh)];
   if (geometry == nullptr) return;
-  std::memcpy(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0), positions.data(),
-              positions.size() * sizeof(Vec3));
+  std::copy(positions.begin(), positions.end(),
+            static_cast<Vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0)));
   rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
   rtcCommitGeometry(geometry);
 }

@@ -38,6 +38,7 @@ SkyIrradiance sky_irradiance(float normal_y) {
 
 std::vector<SkyIrradiance> sky_irradiance_table(int entries) {
   std::vector<SkyIrradiance> table;
+  table.reserve(static_cast<std::size_t>(entries));
   for (int i = 0; i < entries; ++i)
     table.push_back(sky_irradiance(2.0F * static_cast<float>(i) / static_cast<float>(entries - 1) - 1.0F));
   return table;
