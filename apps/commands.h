@@ -11,6 +11,7 @@ ExitStatus run_command(const Options&);       // run/commands: simulate and rend
 ExitStatus simulate_command(const Options&);  // states and energies only
 ExitStatus render_command(const Options&);    // pictures from RUN's states
 ExitStatus check_command(const Options&);     // a run against its golden
+ExitStatus approve_command(const Options&);   // a run becomes the golden
 ExitStatus compare_command(const Options&);   // two pictures, one verdict
 ExitStatus info_command(const Options&);      // what a mesh, a scene or a run is
 

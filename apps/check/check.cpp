@@ -80,7 +80,7 @@ public:
     judge_flicker(result.frames, biases_, file_);
     draw_flickering(result.frames);
     result.sequence = analyse_sequence(result.frames, probes_);
-    result.remarks = remarks();
+    result.remarks = remarks(result.frames);
     result.seconds = watch.seconds();
     return result;
   }
@@ -107,7 +107,7 @@ private:
                               request_.frames->last, request_.run.string(), request_.golden.string(),
                               *all.rbegin()));
     }
-    if (paired) return;
+    if (paired || !request_.needs_pair) return;
     const auto frames_text = [](const auto& frames) {
       std::vector<int> list;
       for (const auto& entry : frames) {
@@ -185,11 +185,8 @@ private:
     try {
       const std::string bytes = read_file(result.fresh);
       result.decided_by = DecidedBy::hash;
-      ComparedFrame told;
-      told.result.frame = result.frame;
-      told.fresh_sha256 = sha256(bytes);
-      keep(told);
-      if (told.fresh_sha256 == golden.file) return result;
+      result.fresh_sha256 = sha256(bytes);
+      if (result.fresh_sha256 == golden.file) return result;
       const std::string pixels = pixels_sha256(render::read_png(bytes, result.fresh.string()));
       if (pixels == golden.pixels) return result;
       result.failures.push_back(
@@ -207,9 +204,9 @@ private:
   }
 
   void keep(const ComparedFrame& compared) {
+    if (!compared.result.figures) return;
     const std::lock_guard lock(mutex_);
-    if (compared.result.figures) biases_[compared.result.frame] = compared.bias;
-    if (!compared.fresh_sha256.empty()) hashes_[compared.result.frame] = compared.fresh_sha256;
+    biases_[compared.result.frame] = compared.bias;
   }
 
   /// Heat of frames that fail only beside their neighbours.
@@ -229,7 +226,7 @@ private:
     }
   }
 
-  std::vector<std::string> remarks() const {
+  std::vector<std::string> remarks(const std::vector<FrameResult>& frames) const {
     std::vector<std::string> all;
     for (const PictureFolder* folder : {&run_, &golden_.own}) {
       if (folder->unnumbered.empty()) continue;
@@ -243,7 +240,7 @@ private:
       all.push_back(
           fmt::format("frames that only the run has are ignored by golden.toml: {}", ranges_text(ignored_)));
     }
-    const std::vector<int> others = pictures_unlike_run_json(request_.run, hashes_);
+    const std::vector<int> others = pictures_unlike_run_json(request_.run, frames);
     if (!others.empty()) {
       all.push_back(
           fmt::format("{}: tells other hashes than the pictures have, of frames {}; the pictures were judged",
@@ -263,7 +260,6 @@ private:
   std::mutex mutex_;  // of what follows
   std::map<int, render::TileBias> biases_;
   std::map<int, Probe> probes_;
-  std::map<int, std::string> hashes_;  // sha-256 of RUN's pictures
 };
 
 }  // namespace

@@ -20,6 +20,7 @@ struct CheckRequest {
   std::optional<std::string> preset;        // instead of its limits
   std::optional<std::string> variant;       // whose pictures come first
   std::optional<double> pixels_per_degree;  // instead of its
+  bool needs_pair = true;                   // without any pair all is a mistake
   bool pictures = true;                     // write heat pictures
 };
 

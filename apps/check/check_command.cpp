@@ -1,6 +1,8 @@
 #include <cstdio>
 #include <string>
 
+#include <unistd.h>
+
 #include "apps/check/check.h"
 #include "apps/check/ci_output.h"
 #include "apps/check/junit.h"
@@ -31,7 +33,8 @@ ExitStatus check_command(const Options& options) {
   const StopSignals signals;
   const sim::ThreadLimit limit(thread_count(options));
   if (options.github) require_github_summary();
-  Progress progress(options.quiet || options.json);
+  // A check takes seconds: only who watches a terminal is told of each frame.
+  Progress progress(options.quiet || options.json || ::isatty(STDERR_FILENO) == 0);
   const fs::path run = options.inputs.at(0);
   const CheckResult result = check_run({.run = run,
                                         .golden = options.inputs.at(1),

@@ -68,7 +68,7 @@ void judge(ComparedFrame& compared, const FramePair& pair, const Limits& limits,
   FrameResult& result = compared.result;
   const auto golden_bytes = try_to([&] { return read_file(pair.golden); }, result);
   const auto fresh_bytes = try_to([&] { return read_file(pair.fresh); }, result);
-  if (fresh_bytes) compared.fresh_sha256 = sha256(*fresh_bytes);
+  if (fresh_bytes) result.fresh_sha256 = sha256(*fresh_bytes);
   if (!golden_bytes || !fresh_bytes) return;
   const bool equal = *golden_bytes == *fresh_bytes;
   const auto header = [](const std::string& bytes, const std::filesystem::path& file) {

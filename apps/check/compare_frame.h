@@ -27,7 +27,6 @@ struct ComparedFrame {
   std::optional<render::Pixels> golden;  // decoded; only of a frame that fails by its figures
   std::optional<render::Pixels> fresh;   // likewise; the masked pixels are the golden's
   std::optional<render::ErrorMap> flip;  // likewise
-  std::string fresh_sha256;              // of the file; empty: it could not be read
 };
 
 /// Judges a frame from the bytes on disk: equal files without decoding, equal samples without metrics. What

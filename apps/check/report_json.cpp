@@ -64,6 +64,7 @@ Json frame_json(const CheckResult& result, const FrameResult& frame) {
                {"decided_by", decided_by_name(frame.decided_by)},
                {"golden", text_or_null(frame.golden.string())},
                {"new", text_or_null(frame.fresh.string())},
+               {"new_sha256", text_or_null(frame.fresh_sha256)},
                {"variant", text_or_null(frame.variant)},
                {"failures", failures},
                {"figures", all_figures_json(frame)},

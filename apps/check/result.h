@@ -49,6 +49,7 @@ struct FrameResult {
   int frame = 0;
   std::filesystem::path golden;  // picture that it was held against; empty: missing there, or only a hash
   std::filesystem::path fresh;   // RUN's picture; empty: missing
+  std::string fresh_sha256;      // of RUN's file; empty: not read
   std::string variant;           // whose golden picture it was; empty: the golden's own
   DecidedBy decided_by = DecidedBy::nothing;
   std::vector<CheckFailure> failures;

@@ -1,5 +1,8 @@
 #include "apps/check/run_hashes.h"
 
+#include <map>
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 #include "apps/error.h"
@@ -8,11 +11,15 @@
 namespace lagomorph::apps {
 
 std::vector<int> pictures_unlike_run_json(const std::filesystem::path& run,
-                                          const std::map<int, std::string>& sha256) {
+                                          const std::vector<FrameResult>& frames) {
   std::vector<int> unlike;
   std::error_code none;
   if (!std::filesystem::exists(run / "run.json", none)) return unlike;
   try {
+    std::map<int, std::string> sha256;
+    for (const FrameResult& frame : frames) {
+      if (!frame.fresh_sha256.empty()) sha256[frame.frame] = frame.fresh_sha256;
+    }
     const auto json = nlohmann::json::parse(read_file(run / "run.json"));
     for (const auto& frame : json.at("frames")) {
       const auto file = sha256.find(frame.at("frame").get<int>());

@@ -15,25 +15,28 @@ struct FrameRange {
 
 /// The command line of every command: options have one meaning everywhere.
 struct Options {
-  std::string command;                        // run, simulate, render, info, ...
-  std::vector<std::string> inputs;            // SCENE.toml, RUN, FILE, A and B as given
-  std::optional<std::filesystem::path> out;   // -o, --out
-  std::vector<std::string> set;               // --set, in order
-  std::optional<FrameRange> frames;           // --frames
-  std::optional<std::string> backend;         // --backend
-  int threads = 0;                            // --threads; 0: as many as the process may use
-  bool video = false;                         // --video
-  bool force = false;                         // --force
-  bool quiet = false;                         // --quiet
-  bool json = false;                          // --json
-  std::optional<std::filesystem::path> mend;  // info --mend OUT: drop stray vertices
-  bool keys = false;                          // info --keys: the table of scene keys
-  std::optional<double> pixels_per_degree;    // compare, check --ppd
-  std::optional<std::filesystem::path> heat;  // compare --heat FILE.png
-  std::optional<std::string> preset;          // check --preset
-  std::optional<std::string> variant;         // check, approve --variant
-  bool ctest = false;                         // check --ctest
-  bool github = false;                        // check --github
+  std::string command;                          // run, simulate, render, info, ...
+  std::vector<std::string> inputs;              // SCENE.toml, RUN, FILE, A and B as given
+  std::optional<std::filesystem::path> out;     // -o, --out
+  std::vector<std::string> set;                 // --set, in order
+  std::optional<FrameRange> frames;             // --frames
+  std::optional<std::string> backend;           // --backend
+  int threads = 0;                              // --threads; 0: as many as the process may use
+  bool video = false;                           // --video
+  bool force = false;                           // --force
+  bool quiet = false;                           // --quiet
+  bool json = false;                            // --json
+  std::optional<std::filesystem::path> mend;    // info --mend OUT: drop stray vertices
+  bool keys = false;                            // info --keys: the table of scene keys
+  std::optional<double> pixels_per_degree;      // compare, check --ppd
+  std::optional<std::filesystem::path> heat;    // compare --heat FILE.png
+  std::optional<std::string> preset;            // check --preset
+  std::optional<std::string> variant;           // check, approve --variant
+  std::optional<std::filesystem::path> report;  // approve --report report.json
+  bool prune = false;                           // approve --prune
+  bool yes = false;                             // approve --prune --yes
+  bool ctest = false;                           // check --ctest
+  bool github = false;                          // check --github
 };
 
 }  // namespace lagomorph::apps

@@ -77,7 +77,7 @@ TEST(CommandLine, TellsHelpAndVersion) {
     EXPECT_EQ(parse({"run", help}).text.find("Usage: lagomorph run SCENE.toml [options]\n"), 0U);
     EXPECT_EQ(parse({"render", "a", "b", "--nonsense", help}).text.find("Usage: lagomorph render RUN"), 0U);
   }
-  for (const char* command : {"run", "simulate", "render", "check", "compare", "info"}) {
+  for (const char* command : {"run", "simulate", "render", "check", "approve", "compare", "info"}) {
     EXPECT_NE(program_help().find(std::string("\n  ") + command + " "), std::string::npos) << command;
     const std::string text = parse({command, "--help"}).text;
     for (const char* part : {"Options:\n", "--quiet", "--json", "\nExample: lagomorph ", "\nExit status: "}) {
@@ -104,10 +104,13 @@ TEST(CommandLine, TellsWhatIsWrong) {
   } cases[] = {
       {{}, "no command given; lagomorph --help lists them"},
       {{"rnu"},
-       "unknown command 'rnu'; did you mean 'run'? Commands are run, simulate, render, check, compare, info"},
-      {{"publish"}, "unknown command 'publish'; commands are run, simulate, render, check, compare, info"},
+       "unknown command 'rnu'; did you mean 'run'? Commands are run, simulate, render, check, approve, "
+       "compare, info"},
+      {{"publish"},
+       "unknown command 'publish'; commands are run, simulate, render, check, approve, compare, info"},
       {{"--quiet", "run"},
-       "'--quiet' where a command is expected (run, simulate, render, check, compare, info); options follow "
+       "'--quiet' where a command is expected (run, simulate, render, check, approve, compare, info); "
+       "options follow "
        "the "
        "command"},
       {{"run"}, "run needs a SCENE.toml: lagomorph run SCENE.toml [options]"},

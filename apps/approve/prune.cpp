@@ -1,0 +1,49 @@
+#include "apps/approve/prune.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "apps/check/golden_folder.h"
+#include "apps/error.h"
+#include "apps/file_io.h"
+#include "apps/run/lock.h"
+
+namespace lagomorph::apps {
+
+namespace fs = std::filesystem;
+
+std::vector<StaleGolden> stale_goldens(const fs::path& run, const fs::path& golden) {
+  const PictureFolder there = list_pictures(run, "run");
+  if (there.pictures.empty())
+    wrong_input(fmt::format("{}: has no pictures; no golden is pruned by it", there.folder.string()));
+  const GoldenFolder folder = read_golden_folder(golden);
+  std::vector<StaleGolden> stale;
+  const auto add = [&](int frame, const fs::path& picture) {
+    if (!there.pictures.contains(frame)) stale.push_back({frame, picture});
+  };
+  for (const auto& [frame, picture] : folder.own.pictures) add(frame, picture);
+  for (const auto& [frame, hash] : folder.hashes) add(frame, {});
+  for (const auto& [name, variant] : folder.variants) {
+    for (const auto& [frame, picture] : variant.pictures) add(frame, picture);
+  }
+  std::stable_sort(stale.begin(), stale.end(),
+                   [](const auto& a, const auto& b) { return a.frame < b.frame; });
+  return stale;
+}
+
+void prune(const fs::path& golden, const std::vector<StaleGolden>& stale) {
+  RunLock lock(golden);
+  lock.take(RunLock::Kind::exclusive);
+  std::map<int, PictureHash> hashes = read_hashes(golden);
+  for (const StaleGolden& s : stale) {
+    if (s.picture.empty()) {
+      hashes.erase(s.frame);
+    } else {
+      remove_file(s.picture);
+    }
+  }
+  write_hashes(golden, hashes);
+}
+
+}  // namespace lagomorph::apps
