@@ -20,10 +20,10 @@ namespace lagomorph::tests {
 
 inline std::string flip_file(const std::string& name) { return read_all(data_file("flip/png/" + name)); }
 
-/// A picture of tests/data/flip with every sample changed, as a PNG file. `change(value, index)` of [0, 255].
+/// A PNG file with every sample changed. `change(value, index)` of [0, 255].
 template <class Change>
-std::string changed_png(const std::string& name, const Change& change) {
-  render::Pixels pixels = render::read_png(flip_file(name), name);
+std::string changed(const std::string& png, const Change& change) {
+  render::Pixels pixels = render::read_png(png, "a test's picture");
   auto& samples = std::get<0>(pixels.samples);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i] = static_cast<std::uint8_t>(std::clamp(std::lround(change(1.0 * samples[i], i)), 0L, 255L));
@@ -31,7 +31,13 @@ std::string changed_png(const std::string& name, const Change& change) {
   return render::encode_png({pixels.width, pixels.height, samples}, 1);
 }
 
-/// The same moved to the right and down; the border repeats.
+/// A picture of tests/data/flip likewise.
+template <class Change>
+std::string changed_png(const std::string& name, const Change& change) {
+  return changed(flip_file(name), change);
+}
+
+/// One moved to the right and down; the border repeats.
 inline std::string shifted_png(const std::string& name, int dx, int dy) {
   const render::Pixels pixels = render::read_png(flip_file(name), name);
   const auto& from = std::get<0>(pixels.samples);

@@ -1,105 +1,80 @@
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <toml++/toml.h>
 
-#include "render/png_read.h"
-#include "tests/support/program.h"
-#include "tests/support/temporary_directory.h"
+#include "tests/support/check_fixture.h"
 
-/// Pictures of committed states (tests/golden/states) against committed pictures (tests/golden/<case>), so
-/// that physics cannot move them. The limits of each case stand in its golden.toml.
+/// `lagomorph check` of the project's own goldens: pictures of committed states (tests/golden/states) against
+/// committed pictures (tests/golden/<case>), so that physics cannot move them.
 namespace lagomorph::tests {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path golden = fs::path(LAGOMORPH_SOURCE_DIR) / "tests/golden";
-
-render::Pixels read_picture(const fs::path& file) { return render::read_png(read_all(file), file.string()); }
-
-struct Difference {
-  double mean = 0.0;       // absolute, of values scaled to [0, 1]
-  double tile_mean = 0.0;  // the largest over tiles of 16x16 pixels
-};
-
-Difference difference(const render::Pixels& a, const render::Pixels& b) {
-  constexpr int tile = 16;
-  const auto& x = std::get<0>(a.samples);
-  const auto& y = std::get<0>(b.samples);
-  Difference d;
-  for (int ty = 0; ty < a.height; ty += tile) {
-    for (int tx = 0; tx < a.width; tx += tile) {
-      const int right = std::min(tx + tile, a.width), bottom = std::min(ty + tile, a.height);
-      double sum = 0.0;
-      for (int row = ty; row < bottom; ++row) {
-        for (int i = 3 * tx; i < 3 * right; ++i) {
-          const std::size_t at = static_cast<std::size_t>(3 * row) * static_cast<std::size_t>(a.width) +
-                                 static_cast<std::size_t>(i);
-          sum += std::abs(x[at] - y[at]) / 255.0;
-        }
-      }
-      d.mean += sum;
-      d.tile_mean = std::max(d.tile_mean, sum / (3.0 * (right - tx) * (bottom - ty)));
-    }
-  }
-  d.mean /= 3.0 * a.width * a.height;
-  return d;
-}
+const fs::path goldens = fs::path(LAGOMORPH_SOURCE_DIR) / "tests/golden";
 
 class Golden : public testing::TestWithParam<std::string> {
 protected:
-  void SetUp() override {
-    const toml::table limits = toml::parse_file((golden / GetParam() / "golden.toml").string());
-    mean_ = limits["limits"]["mean"].value<double>().value();
-    tile_mean_ = limits["limits"]["tile_mean"].value<double>().value();
-    backend_ = limits["backend"].value<std::string>().value();
-    for (const auto& file : fs::directory_iterator(golden / GetParam() / "frames"))
-      frames_.push_back(file.path());
-    std::sort(frames_.begin(), frames_.end());
-    ASSERT_FALSE(frames_.empty());
-  }
-  /// Draws one frame of the committed states.
-  fs::path draw(const TemporaryDirectory& directory, const fs::path& frame) const {
-    const std::string number = std::to_string(std::stoi(frame.stem().string().substr(6)));
-    const fs::path run = directory.path() / "run";
-    const Ended ended = run_program({"render", (golden / "states").string(), "--backend", backend_,
-                                     "--frames", number, "--out", run.string(), "--quiet"},
-                                    directory);
+  fs::path golden() const { return goldens / ("bunny_" + GetParam()); }
+  /// Draws frames of the committed states with other scene keys.
+  fs::path draw(const std::string& frames, std::vector<std::string> more = {}) const {
+    const fs::path run = dir_.path() / "run";
+    std::vector<std::string> arguments = {"render",    (goldens / "states").string(),
+                                          "--backend", GetParam(),
+                                          "--frames",  frames,
+                                          "--out",     run.string(),
+                                          "--quiet",   "--force"};
+    for (const std::string& set : more) arguments.insert(arguments.end(), {"--set", set});
+    const Ended ended = run_program(arguments);
     EXPECT_EQ(ended.status, 0) << ended.err;
-    return run / "frames" / frame.filename();
+    return run;
   }
-  double mean_ = 0.0, tile_mean_ = 0.0;
-  std::string backend_;
-  std::vector<fs::path> frames_;
+  Ended check(const fs::path& run, std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments = {"check", run.string(), golden().string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(arguments);
+  }
+  TemporaryDirectory dir_;
 };
 
 TEST_P(Golden, PicturesOfCommittedStatesAreTheCommittedOnes) {
-  const TemporaryDirectory directory;
-  for (const fs::path& frame : frames_) {
-    const render::Pixels expected = read_picture(frame), found = read_picture(draw(directory, frame));
-    ASSERT_EQ(found.width, expected.width);
-    ASSERT_EQ(found.height, expected.height);
-    const Difference d = difference(expected, found);
-    EXPECT_LE(d.mean, mean_) << frame;
-    EXPECT_LE(d.tile_mean, tile_mean_) << frame;
+  draw("2");
+  const Ended ended = check(draw("4"));
+  EXPECT_EQ(ended.status, 0) << ended.out << ended.err;
+}
+
+// A golden that every picture passes is none: the other frame and the other back end's picture are refused.
+TEST_P(Golden, OtherPicturesFail) {
+  const std::string other = GetParam() == "raster" ? "path" : "raster";
+  dir_.write("late/frame_0002.png", read_all(golden() / "frames/frame_0004.png"));
+  dir_.write("late/frame_0004.png", read_all(golden() / "frames/frame_0004.png"));
+  const Ended late = check(dir_.path() / "late");
+  EXPECT_EQ(late.status, 1) << late.err;
+  EXPECT_NE(late.out.find("matches the golden's frame + 2 in frame 2\n"), std::string::npos) << late.out;
+  EXPECT_EQ(check(goldens / ("bunny_" + other), {"-o", (dir_.path() / "report").string()}).status, 1);
+}
+
+// What nobody sees passes by the defaults, and what one looks for fails.
+TEST_P(Golden, DefaultsSortOtherLooks) {
+  const bool raster = GetParam() == "raster";
+  const auto status = [&](const std::vector<std::string>& set) {
+    return check(draw("2", set), {"--frames", "2", "--preset", "render"}).status;
+  };
+  EXPECT_EQ(status({raster ? "render.raster.multisample=1" : "render.path.seed=7"}), 0);
+  if (!raster) {
+    EXPECT_EQ(status({"render.samples=256"}), 0);
+    EXPECT_EQ(status({"render.samples=16", "render.path.seed=3"}), 0);  // Sobol's noise is small
   }
+  EXPECT_EQ(status({"ground.enabled=false"}), 1);                     // a missing object
+  EXPECT_EQ(status({"camera.look_at=[-0.1, 0.98, 0]"}), 1);           // a moved one
+  EXPECT_EQ(status({"light.0.color=[1, 0.9, 0.6]"}), 1);              // a cast
+  EXPECT_EQ(status({"body.0.look.base_color=[0.1, 0.3, 0.42]"}), 1);  // another colour
+  EXPECT_EQ(status({"render.exposure=0.15"}), 1);                     // brightness
 }
 
-// A golden that every picture passes is none: neighbouring frames and the other back end's picture are
-// refused.
-TEST_P(Golden, AnotherFrameFails) {
-  ASSERT_GE(frames_.size(), 2U);
-  const Difference d = difference(read_picture(frames_[0]), read_picture(frames_[1]));
-  EXPECT_GT(d.tile_mean, 4.0 * tile_mean_);
-}
-
-INSTANTIATE_TEST_SUITE_P(Cases, Golden, testing::Values("bunny_raster", "bunny_path"),
+INSTANTIATE_TEST_SUITE_P(Cases, Golden, testing::Values("raster", "path"),
                          [](const auto& info) { return info.param; });
 
 }  // namespace

@@ -19,6 +19,10 @@ std::vector<Case> cases() {
   };
   const std::string spheres = flip_file("spheres_ref.png");
   const auto with = [&](const auto& change) { return changed_png("spheres_ref.png", change); };
+  const std::string bunny_file =
+      std::string(LAGOMORPH_SOURCE_DIR) + "/tests/golden/bunny_path/frames/frame_0002.png";
+  const std::string bunny = read_all(bunny_file);
+  const auto of_bunny = [&](const auto& change) { return changed(bunny, change); };
   return {
       {"equal", spheres, spheres, {"exact", "lsb", "render", "mc"}},
       {"recompressed",
@@ -39,6 +43,16 @@ std::vector<Case> cases() {
       {"cast", spheres, with([](double v, std::size_t i) { return i % 3 == 2 ? 0.85 * v : v; }), {}},
       {"shifted", spheres, shifted_png("spheres_ref.png", 1, 0), {}},
       {"black_white", flip_file("black.png"), flip_file("white.png"), {}},
+      {"bunny_plus_minus_1",
+       bunny,
+       of_bunny([&](double v, std::size_t) { return v + random(); }),
+       {"lsb", "render", "mc"}},
+      {"bunny_plus_1", bunny, of_bunny([](double v, std::size_t) { return v + 1; }), {"lsb", "render", "mc"}},
+      {"bunny_gamma",
+       bunny,
+       of_bunny([](double v, std::size_t) { return 255 * std::pow(v / 255, 1 / 1.1); }),
+       {}},
+      {"bunny_cast", bunny, of_bunny([](double v, std::size_t i) { return i % 3 == 2 ? 0.85 * v : v; }), {}},
       {"other_colour", flip_file("blue.png"), flip_file("green.png"), {}},
   };
 }
@@ -59,7 +73,7 @@ TEST_P(CheckCases, AreSortedRightly) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, CheckCases, testing::Range(0, 14),
+INSTANTIATE_TEST_SUITE_P(All, CheckCases, testing::Range(0, 18),
                          [](const auto& info) { return cases()[static_cast<std::size_t>(info.param)].name; });
 
 }  // namespace
