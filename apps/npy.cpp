@@ -88,21 +88,10 @@ std::optional<std::size_t> product(std::span<const std::size_t> shape) {
   return n;
 }
 
-}  // namespace
-
-std::string shape_text(std::span<const std::size_t> shape) {
-  return fmt::format("({}{})", fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
-}
-
-std::string npy_bytes(std::span<const double> values, std::span<const std::size_t> shape) {
-  return bytes_of("<f8", values, shape);
-}
-
-std::string npy_bytes(std::span<const float> values, std::span<const std::size_t> shape) {
-  return bytes_of("<f4", values, shape);
-}
-
-NpyArray read_npy(std::string_view bytes, const std::string& origin) {
+/// `type` is NumPy's name of T in the header, `words` that for people.
+template <class Array, class T>
+Array read_array(std::string_view bytes, const std::string& origin, const std::string& type,
+                 const std::string& words) {
   const auto fail = [&](const std::string& what) -> Error {
     return {ExitStatus::wrong_input, origin + ": " + what};
   };
@@ -125,21 +114,43 @@ NpyArray read_npy(std::string_view bytes, const std::string& origin) {
   const auto shape_value = text.value("shape");
   const auto shape = shape_value ? parse_shape(*shape_value) : std::nullopt;
   if (!descr || !order || !shape) throw fail("has an npy header that cannot be read");
-  if (!descr->starts_with("'<f8'")) {
-    throw fail("has values of type " + std::string(descr->substr(0, descr->find(','))) +
-               "; '<f8' would be right");
+  if (!descr->starts_with("'" + type + "'")) {
+    throw fail("has values of type " + std::string(descr->substr(0, descr->find(','))) + "; '" + type +
+               "' would be right");
   }
   if (!order->starts_with("False")) throw fail("is in Fortran order; C order would be right");
 
   const std::optional<std::size_t> count = product(*shape);
   const std::size_t there = bytes.size() - before - length;
-  if (!count || *count > there / sizeof(double) || there != *count * sizeof(double)) {
+  if (!count || *count > there / sizeof(T) || there != *count * sizeof(T)) {
     throw fail("has " + std::to_string(there) + " bytes of values, which is not what the shape " +
-               shape_text(*shape) + " of float64 needs");
+               shape_text(*shape) + " of " + words + " needs");
   }
-  NpyArray array{*shape, std::vector<double>(*count)};
+  Array array{*shape, std::vector<T>(*count)};
   if (*count > 0) std::memcpy(array.values.data(), bytes.data() + before + length, there);
   return array;
+}
+
+}  // namespace
+
+std::string shape_text(std::span<const std::size_t> shape) {
+  return fmt::format("({}{})", fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
+}
+
+std::string npy_bytes(std::span<const double> values, std::span<const std::size_t> shape) {
+  return bytes_of("<f8", values, shape);
+}
+
+std::string npy_bytes(std::span<const float> values, std::span<const std::size_t> shape) {
+  return bytes_of("<f4", values, shape);
+}
+
+NpyArray read_npy(std::string_view bytes, const std::string& origin) {
+  return read_array<NpyArray, double>(bytes, origin, "<f8", "float64");
+}
+
+NpyFloats read_npy_floats(std::string_view bytes, const std::string& origin) {
+  return read_array<NpyFloats, float>(bytes, origin, "<f4", "float32");
 }
 
 }  // namespace lagomorph::apps

@@ -23,6 +23,13 @@ struct NpyArray {
 /// the shape.
 NpyArray read_npy(std::string_view bytes, const std::string& origin);
 
+struct NpyFloats {
+  std::vector<std::size_t> shape;
+  std::vector<float> values;  // C order
+};
+/// Likewise a float32 array.
+NpyFloats read_npy_floats(std::string_view bytes, const std::string& origin);
+
 /// "(1, 2, 27, 3)"
 std::string shape_text(std::span<const std::size_t> shape);
 

@@ -2,13 +2,14 @@
 
 namespace lagomorph::render {
 
-std::vector<float>& Image::add(std::string_view name, int components) {
+std::vector<float>& Image::add(std::string_view name, int components, int cell) {
   for (Channel& c : channels_) {
     if (c.name == name) return c.values;
   }
-  const std::size_t count = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) *
+  const int width = (width_ + cell - 1) / cell, height = (height_ + cell - 1) / cell;
+  const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                             static_cast<std::size_t>(components);
-  channels_.push_back({std::string(name), components, std::vector<float>(count, 0.0F)});
+  channels_.push_back({std::string(name), components, std::vector<float>(count, 0.0F), width, height});
   return channels_.back().values;
 }
 

@@ -13,6 +13,8 @@ struct Channel {
       name;  // "color" (3), "depth" (1) [m along the view axis, +inf where nothing is], "normal" (3), ...
   int components = 1;  // values a pixel
   std::vector<float> values;
+  int width = 0;  // of the channel: the picture's, less where squares of pixels share their values
+  int height = 0;
 };
 
 /// Linear float channels of one size, by name. Tone curve and sRGB are applied once, at the PNG.
@@ -25,8 +27,9 @@ public:
   int height() const { return height_; }
   const std::vector<Channel>& channels() const { return channels_; }
 
-  /// Adds a channel of zeros (or returns the one there is) and gives its values, width*height*components.
-  std::vector<float>& add(std::string_view name, int components);
+  /// Adds a channel of zeros (or returns the one there is) and gives its values, width*height*components, or
+  /// components for each square of cell x cell pixels, those at the right and lower border being smaller.
+  std::vector<float>& add(std::string_view name, int components, int cell = 1);
   /// The channel of that name; nullptr when there is none.
   const Channel* find(std::string_view name) const;
 

@@ -17,7 +17,8 @@ public:
     Image image(camera.width(), camera.height());
     image.add("color", 3);
     for (const std::string& channel : settings_.channels) {
-      std::vector<float>& values = image.add(channel, 1);
+      const ChannelKind& kind = channel_kind(channel);
+      std::vector<float>& values = image.add(channel, kind.components, kind.cell);
       std::fill(values.begin(), values.end(), std::numeric_limits<float>::infinity());
     }
     return image;

@@ -36,17 +36,12 @@ std::vector<std::string> renderer_names() {
   return names;
 }
 
-std::vector<std::string> channel_names() { return {"depth"}; }
-
 std::unique_ptr<Renderer> make_renderer(const RenderSettings& settings, int threads) {
   check_range("render.width", settings.width, 1, 16384);
   check_range("render.height", settings.height, 1, 16384);
   for (const std::string& channel : settings.channels) {
-    bool known = false;
-    for (const std::string& name : channel_names()) known = known || name == channel;
-    if (!known) {
-      throw SettingsError("render.channels: unknown channel '" + channel + "'; known are " +
-                          joined(channel_names()));
+    if (channel_kind(channel).path_only && settings.backend == "raster") {
+      throw SettingsError("render.channels: '" + channel + "' is drawn by render.backend = \"path\" only");
     }
   }
   for (const Row& row : backends) {

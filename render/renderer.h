@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/camera.h"
+#include "render/channels.h"
 #include "render/image.h"
 #include "render/render_scene.h"
 #include "render/settings.h"
@@ -36,7 +37,6 @@ public:
 };
 
 std::vector<std::string> renderer_names();  // raster, path, null
-std::vector<std::string> channel_names();   // depth, ...
 /// `threads` bounds the back end's threads and never changes a pixel. Throws SettingsError for an unknown
 /// backend or channel (listing the valid ones) and for values out of range, DeviceError when the machine
 /// cannot.

@@ -29,7 +29,7 @@ struct RenderSettings {
   std::string tone_curve = "pbr_neutral";  // see tone_curve_names()
   float exposure = 0.0F;                   // stops: linear light times 2^exposure before the curve
   int png_compression = 1;                 // zlib level, 0 .. 12 (libdeflate's)
-  std::vector<std::string> channels;       // written beside the picture: "depth"; see channel_names()
+  std::vector<std::string> channels;       // written beside the picture: see channel_kinds()
   RasterSettings raster;
   PathSettings path;
 };

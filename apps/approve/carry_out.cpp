@@ -5,9 +5,11 @@
 
 #include "apps/approve/approve.h"
 #include "apps/check/hashes.h"
+#include "apps/check/light_statistics.h"
 #include "apps/file_io.h"
 #include "apps/hash.h"
 #include "apps/run/lock.h"
+#include "render/channels.h"
 #include "render/png_read.h"
 
 namespace lagomorph::apps {
@@ -23,6 +25,18 @@ constexpr char first_golden_toml[] =
 bool is_there(const fs::path& file) {
   std::error_code none;
   return fs::exists(file, none);
+}
+
+/// What lies beside the picture goes with it; of a picture that is not kept, or has none, none stays.
+void keep_statistics(const AcceptedFrame& frame) {
+  const fs::path from = channel_beside(frame.from, render::statistics_channel);
+  const fs::path to = channel_beside(frame.to, render::statistics_channel);
+  if (frame.only_hash || !is_there(from)) {
+    if (is_there(to)) remove_file(to);
+    return;
+  }
+  make_folder(to.parent_path());
+  write_file_if_changed(to, read_file(from), Durable::yes);
 }
 
 void keep_picture(const AcceptedFrame& frame, std::map<int, PictureHash>& hashes) {
@@ -71,6 +85,7 @@ void carry_out(const ApproveRequest& request, const Approval& approval) {
   lock.take(RunLock::Kind::exclusive);
   std::map<int, PictureHash> hashes = read_hashes(request.golden);
   for (const AcceptedFrame& frame : approval.accepted) {
+    keep_statistics(frame);
     keep_picture(frame, hashes);
     if (!frame.only_hash && !request.variant) hashes.erase(frame.frame);
   }

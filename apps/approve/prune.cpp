@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include "apps/check/golden_folder.h"
+#include "apps/check/light_statistics.h"
 #include "apps/error.h"
 #include "apps/file_io.h"
 #include "apps/run/lock.h"
+#include "render/channels.h"
 
 namespace lagomorph::apps {
 
@@ -41,6 +43,8 @@ void prune(const fs::path& golden, const std::vector<StaleGolden>& stale) {
       hashes.erase(s.frame);
     } else {
       remove_file(s.picture);
+      const fs::path statistics = channel_beside(s.picture, render::statistics_channel);
+      if (std::error_code none; fs::exists(statistics, none)) remove_file(statistics);
     }
   }
   write_hashes(golden, hashes);

@@ -240,6 +240,16 @@ private:
       all.push_back(
           fmt::format("frames that only the run has are ignored by golden.toml: {}", ranges_text(ignored_)));
     }
+    std::map<std::string, std::vector<int>> without;
+    for (const FrameResult& frame : frames) {
+      if (!frame.no_light.empty()) without[frame.no_light].push_back(frame.frame);
+    }
+    for (const auto& [why, numbers] : without) {
+      all.push_back(fmt::format(
+          "the light's noise was not tested in frames {}: of tile_statistics {}; the other limits "
+          "decided (render.channels = [\"tile_statistics\"] leaves them)",
+          ranges_text(numbers), why));
+    }
     const std::vector<int> others = pictures_unlike_run_json(request_.run, frames);
     if (!others.empty()) {
       all.push_back(

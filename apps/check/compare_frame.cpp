@@ -2,8 +2,10 @@
 
 #include <utility>
 
+#include <fmt/format.h>
 #include <tbb/task_arena.h>
 
+#include "apps/check/light_statistics.h"
 #include "apps/error.h"
 #include "apps/file_io.h"
 #include "apps/hash.h"
@@ -41,9 +43,37 @@ void take_equal(ComparedFrame& compared, DecidedBy by, int width, int height, bo
   compared.result.bias = render::bias_figures(compared.bias);
 }
 
+/// The test of the light itself, where a limit asks for it and both sides left statistics.
+void test_light(FrameResult& result, const FramePair& pair, const Limits& limits,
+                const std::vector<std::uint8_t>& mask, const render::Pixels& golden) {
+  const LimitValue& discovery = limits[LimitName::mc_false_discovery];
+  if (!discovery.value && !limits[LimitName::mc_global_z].value) return;
+  const auto statistics = [&](const std::filesystem::path& picture, const char* whose) {
+    auto there = read_light_statistics(picture, golden.width, golden.height);
+    if (!there) {
+      result.no_light += fmt::format("{}{} has none", result.no_light.empty() ? "" : ", ", whose);
+    } else if (!there->usable()) {
+      result.no_light += fmt::format("{}{} has a sample a pixel, and so no variance",
+                                     result.no_light.empty() ? "" : ", ", whose);
+      there.reset();
+    }
+    return there;
+  };
+  try {
+    const auto of_golden = statistics(pair.golden, "the golden"),
+               of_fresh = statistics(pair.fresh, "the run");
+    if (of_golden && of_fresh)
+      result.light = render::compare_light(*of_golden, *of_fresh, mask, discovery.value.value_or(0));
+  } catch (const Error& error) {
+    if (error.status != ExitStatus::wrong_input) throw;
+    result.failures.push_back({"statistics", error.what(), "", ""});
+  }
+}
+
 /// Of two pictures of one kind.
 void compare_pixels(ComparedFrame& compared, render::Pixels golden, render::Pixels fresh,
-                    const Limits& limits, double pixels_per_degree) {
+                    const FramePair& pair, const Limits& limits, const std::vector<std::uint8_t>& mask,
+                    double pixels_per_degree) {
   FrameResult& result = compared.result;
   if (golden.samples == fresh.samples) {
     take_equal(compared, DecidedBy::pixels, golden.width, golden.height, golden.alpha);
@@ -54,7 +84,8 @@ void compare_pixels(ComparedFrame& compared, render::Pixels golden, render::Pixe
   compared.bias = render::tile_bias(golden, fresh);
   result.figures = comparison.figures;
   result.bias = render::bias_figures(compared.bias);
-  result.failures = broken_limits(result, limits);
+  test_light(result, pair, limits, mask, golden);
+  for (CheckFailure& failure : broken_limits(result, limits)) result.failures.push_back(std::move(failure));
   if (comparison.flip.values.empty()) {  // alpha alone differs
     comparison.flip = {golden.width, golden.height, std::vector<float>(golden.pixel_count())};
   }
@@ -94,7 +125,7 @@ void judge(ComparedFrame& compared, const FramePair& pair, const Limits& limits,
   auto fresh = try_to(picture(*fresh_bytes, pair.fresh), result);
   if (!golden || !fresh) return;
   cover(mask, *golden, *fresh);
-  compare_pixels(compared, std::move(*golden), std::move(*fresh), limits, pixels_per_degree);
+  compare_pixels(compared, std::move(*golden), std::move(*fresh), pair, limits, mask, pixels_per_degree);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "apps/check/limits.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -29,6 +31,10 @@ constexpr LimitRow rows[limit_count] = {
     {"flicker_tile_max", false, 0, 2, "full scale",
      "largest change of a tile's mean signed difference from the frame before"},
     {"flicker_mean", false, 0, 2, "full scale", "the same of the whole picture"},
+    {"mc_false_discovery", true, 0, 1, "",
+     "least p-value of Welch's test of the light of 8x8 pixels, adjusted by Benjamini and Hochberg, at "
+     "least"},
+    {"mc_global_z", false, 0, infinite, "", "|z| of the whole picture's light"},
 };
 
 struct PresetRow {
@@ -42,7 +48,9 @@ struct Preset {
 
 /// `render` passes what nobody sees: a step of 1 in 255, another anti-aliasing, the noise of 256 samples.
 /// `mc` passes the noise of 16 samples, which averages out of a tile's signed mean, where a moved object or
-/// another gamma does not.
+/// another gamma does not. Of pictures with tile_statistics it tests the light itself: where all is noise a
+/// frame fails by chance once in a thousand at most (by z once in a million), and as the variances are the
+/// true ones or larger, far less.
 const std::vector<Preset>& presets() {
   using enum LimitName;
   static const std::vector<Preset> all = {
@@ -58,7 +66,9 @@ const std::vector<Preset>& presets() {
         {flip_mean, 0.1},
         {bias_tile_max, 0.028},
         {bias_mean, 0.008},
-        {flicker_mean, 0.008}}},
+        {flicker_mean, 0.008},
+        {mc_false_discovery, 0.001},
+        {mc_global_z, 5}}},
   };
   return all;
 }
@@ -69,6 +79,8 @@ std::string number_beside(double value, double limit) {
   while (digits < 17 && fmt::format("{:.{}g}", value, digits) == fmt::format("{:.4g}", limit)) ++digits;
   return fmt::format("{:.{}g}", value, digits);
 }
+
+constexpr std::array channel_names = {"red", "green", "blue"};
 
 class Judge {
 public:
@@ -144,6 +156,14 @@ std::vector<CheckFailure> broken_limits(const FrameResult& frame, const Limits& 
   if (frame.bias) {
     judge.hold(bias_tile_max, frame.bias->tile.mean, place(frame.bias->tile.tile));
     judge.hold(bias_mean, frame.bias->mean);
+  }
+  if (frame.light) {
+    const render::LightFigures& l = *frame.light;
+    judge.hold(mc_false_discovery, l.false_discovery,
+               fmt::format("{}, z {:.3g}, {} of {} tiles", place(l.cell), l.cell_z, l.discoveries, l.cells));
+    judge.hold(mc_global_z, std::abs(l.global_z),
+               fmt::format(", {} {} by {:.2g} %", channel_names[static_cast<std::size_t>(l.global_channel)],
+                           l.global_change > 0 ? "brighter" : "darker", 100 * std::abs(l.global_change)));
   }
   if (f.alpha) {
     judge.hold(flip_tile_max, f.alpha->tile.mean, place(f.alpha->tile.tile), "alpha_tile_max");

@@ -26,8 +26,10 @@ enum class LimitName : std::size_t {
   bias_mean,
   flicker_tile_max,
   flicker_mean,
+  mc_false_discovery,
+  mc_global_z,
 };
-inline constexpr std::size_t limit_count = 13;
+inline constexpr std::size_t limit_count = 15;
 
 /// A row of the one table of limits.
 struct LimitRow {

@@ -47,6 +47,16 @@ Json all_figures_json(const FrameResult& frame) {
     json["flicker_tile_max"] = frame.flicker->mean;
     json["flicker_tile"] = tile_json(frame.flicker->tile);
   }
+  if (frame.light) {
+    const render::LightFigures& l = *frame.light;
+    json["mc_false_discovery"] = l.false_discovery;
+    json["mc_tile"] = tile_json(l.cell);
+    json["mc_tile_z"] = l.cell_z;
+    json["mc_discoveries"] = l.discoveries;
+    json["mc_tiles"] = l.cells;
+    json["mc_global_z"] = l.global_z;
+    json["mc_global_change"] = l.global_change;
+  }
   if (f.alpha) {
     json["alpha"] = {{"mean", f.alpha->mean},
                      {"max", f.alpha->most},

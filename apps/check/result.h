@@ -8,6 +8,7 @@
 #include "apps/cli/options.h"
 #include "render/image_compare/bias.h"
 #include "render/image_compare/compare.h"
+#include "render/image_compare/light_noise.h"
 
 /// What a check found, as plain values. Every report (report.json, junit.xml, report.html, the job summary)
 /// is written from these alone.
@@ -15,8 +16,8 @@ namespace lagomorph::apps {
 
 /// A rule that is broken: what was found, what is allowed, and who says so.
 struct CheckFailure {
-  /// "missing", "extra", "unreadable", "size", "bit_depth", "channels", "mask", "hash", or the name of a
-  /// limit: "flip_tile_max", "flip_mean", "max_abs", "flicker_tile_max", ...
+  /// "missing", "extra", "unreadable", "size", "bit_depth", "channels", "mask", "hash", "statistics", or the
+  /// name of a limit: "flip_tile_max", "flip_mean", "max_abs", "flicker_tile_max", ...
   std::string rule;
   std::string found;  // "0.2222 at 192,96 (16x16 pixels)"
   std::string limit;  // "0.12"; empty where there is no number to keep
@@ -58,10 +59,14 @@ struct FrameResult {
   /// The largest change of a tile's bias since the frame before: what flickers or pops. None for the first.
   std::optional<render::TileMean> flicker;
   std::optional<double> flicker_mean;  // the same of the whole picture
-  double masked = 0;                   // share of the pixels that masks leave out, in [0, 1]
-  std::vector<std::string> hints;      // "shifted by 1 pixel to the right", "is the golden's frame 13"
-  std::string heat;                    // picture of FLIP's errors, relative to CheckResult::out; empty: none
-  std::string panel;                   // golden | new | heat in one picture, likewise
+  /// The statistical test of path-traced light; none where no mc limit asks for it, or statistics are
+  /// missing.
+  std::optional<render::LightFigures> light;
+  std::string no_light;            // why not, where one asks: "the golden has no tile_statistics"
+  double masked = 0;               // share of the pixels that masks leave out, in [0, 1]
+  std::vector<std::string> hints;  // "shifted by 1 pixel to the right", "is the golden's frame 13"
+  std::string heat;                // picture of FLIP's errors, relative to CheckResult::out; empty: none
+  std::string panel;               // golden | new | heat in one picture, likewise
   double seconds = 0;
 
   bool passed() const { return failures.empty(); }

@@ -15,9 +15,9 @@
 namespace lagomorph::apps {
 namespace {
 
-std::string encode_channel(const render::Image& image, const render::Channel& channel) {
-  const std::array<std::size_t, 3> shape = {static_cast<std::size_t>(image.height()),
-                                            static_cast<std::size_t>(image.width()),
+std::string encode_channel(const render::Channel& channel) {
+  const std::array<std::size_t, 3> shape = {static_cast<std::size_t>(channel.height),
+                                            static_cast<std::size_t>(channel.width),
                                             static_cast<std::size_t>(channel.components)};
   return npy_bytes(channel.values, std::span(shape).first(channel.components == 1 ? 2 : 3));
 }
@@ -72,7 +72,7 @@ PictureRecord FrameWriter::write_picture(int frame, const render::Image& image) 
     if (channel == nullptr) {
       throw Error(ExitStatus::machine, "the renderer '" + settings_.backend + "' gave no channel " + name);
     }
-    const std::string bytes = encode_channel(image, *channel);
+    const std::string bytes = encode_channel(*channel);
     write_file(paths_.channel(name, frame), bytes);
     record.channels[name] = sha256(bytes);
   }

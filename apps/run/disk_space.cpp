@@ -8,6 +8,7 @@
 
 #include "apps/error.h"
 #include "apps/run/state_file.h"
+#include "render/channels.h"
 
 namespace lagomorph::apps {
 
@@ -17,7 +18,13 @@ ExpectedSize expected_size(const std::vector<FrameJob>& jobs, int vertices, int 
                            const render::RenderSettings& render) {
   constexpr std::size_t record = 4096;
   const std::size_t pixels = static_cast<std::size_t>(render.width) * static_cast<std::size_t>(render.height);
-  const std::size_t channels = render.channels.size() * pixels * sizeof(float);
+  std::size_t channels = 0;
+  for (const std::string& name : render.channels) {
+    const render::ChannelKind& kind = render::channel_kind(name);
+    const auto cells = [&](int side) { return static_cast<std::size_t>((side + kind.cell - 1) / kind.cell); };
+    channels += cells(render.width) * cells(render.height) * static_cast<std::size_t>(kind.components) *
+                sizeof(float);
+  }
   const std::size_t usual_share =
       render.backend == "path" ? 2 : 3;  // of 3 bytes a pixel; noise compresses less
   ExpectedSize size;

@@ -12,11 +12,13 @@
 #include "render/path/filter.h"
 #include "render/path/path_tracer.h"
 #include "render/path/scene_geometry.h"
+#include "render/path/tile_statistics.h"
 
 namespace lagomorph::render {
 namespace {
 
 constexpr int tile_size = 32;
+static_assert(tile_size % statistics_cell == 0);
 
 void check_range(const char* key, int value, int low, int high) {
   if (value >= low && value <= high) return;
@@ -64,11 +66,11 @@ public:
     Image image(camera.width(), camera.height());
     arena_.execute([&] {
       geometry_->commit();
-      draw_color(camera, frame.frame, image.add("color", 3));
-      if (std::find(settings_.channels.begin(), settings_.channels.end(), "depth") !=
-          settings_.channels.end()) {
-        draw_depth(camera, image.add("depth", 1));
-      }
+      float* statistics = wants(statistics_channel)
+                              ? image.add(statistics_channel, statistics_components, statistics_cell).data()
+                              : nullptr;
+      draw_color(camera, frame.frame, image.add("color", 3), statistics);
+      if (wants(depth_channel)) draw_depth(camera, image.add(depth_channel, 1));
     });
     return image;
   }
@@ -78,6 +80,11 @@ public:
   }
 
 private:
+  bool wants(const char* channel) const {
+    return std::find(settings_.channels.begin(), settings_.channels.end(), channel) !=
+           settings_.channels.end();
+  }
+
   template <class Body>
   void for_tiles(const Camera& camera, const Body& body) const {
     const int columns = (camera.width() + tile_size - 1) / tile_size;
@@ -95,13 +102,19 @@ private:
         tbb::simple_partitioner());
   }
 
-  void draw_color(const Camera& camera, int frame, std::vector<float>& color) const {
+  /// And the channel of statistics where it is not nullptr.
+  void draw_color(const Camera& camera, int frame, std::vector<float>& color, float* statistics) const {
     const path::FrameSamples numbers(settings_.path.seed, frame, settings_.samples);
     tbb::enumerable_thread_specific<path::PathTracer> tracers([&] {
       return path::PathTracer(*geometry_, *shading_, camera, filter_, settings_.samples,
                               settings_.path.bounces);
     });
-    for_tiles(camera, [&](const path::Tile& tile) { tracers.local().trace(tile, numbers, color.data()); });
+    for_tiles(camera, [&](const path::Tile& tile) {
+      std::optional<path::TileStatistics> cells;
+      if (statistics != nullptr) cells.emplace(tile, settings_.samples);
+      tracers.local().trace(tile, numbers, color.data(), cells ? &*cells : nullptr);
+      if (cells) cells->write(camera.width(), statistics);
+    });
   }
 
   /// One ray through each pixel's centre. The ground is a surface over its whole disc.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "render/path/tile_statistics.h"
+
 namespace lagomorph::render::path {
 namespace {
 
@@ -69,7 +71,8 @@ PathTracer::PathTracer(const SceneGeometry& geometry, const Shading& shading, co
   radiance_.reserve(batch_size);
 }
 
-void PathTracer::trace(const Tile& tile, const FrameSamples& numbers, float* color) {
+void PathTracer::trace(const Tile& tile, const FrameSamples& numbers, float* color,
+                       TileStatistics* statistics) {
   const auto width = static_cast<std::uint32_t>(tile.x1 - tile.x0);
   const std::uint64_t total =
       static_cast<std::uint64_t>(width) * static_cast<std::uint32_t>(tile.y1 - tile.y0) * samples_;
@@ -95,8 +98,10 @@ void PathTracer::trace(const Tile& tile, const FrameSamples& numbers, float* col
     for (std::uint32_t depth = 0; !paths_.empty(); ++depth) trace_batch(depth);
     for (std::uint32_t lane = 0; lane < count; ++lane) {
       sum += radiance_[lane].cast<double>();
-      if ((first + lane + 1) % samples_ != 0) continue;
       const auto [x, y] = place(first + lane);
+      if (statistics != nullptr)
+        statistics->add(x, y, static_cast<int>((first + lane) % samples_), radiance_[lane]);
+      if ((first + lane + 1) % samples_ != 0) continue;
       float* out = color + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width()) +
                                 static_cast<std::size_t>(x));
       for (int k = 0; k < 3; ++k) out[k] = static_cast<float>(sum[k] / samples_);

@@ -12,6 +12,8 @@
 
 namespace lagomorph::render::path {
 
+class TileStatistics;
+
 /// What paths need to know of a scene besides its geometry.
 struct Shading {
   explicit Shading(const RenderScene&);
@@ -44,8 +46,8 @@ public:
              int bounces);
 
   /// Mean radiance of the tile's pixels into `color`, 3 floats a pixel of the whole picture. Sums go in the
-  /// order of the samples.
-  void trace(const Tile&, const FrameSamples&, float* color);
+  /// order of the samples. `statistics`, of the same tile, takes every sample; nullptr: none is kept.
+  void trace(const Tile&, const FrameSamples&, float* color, TileStatistics* statistics = nullptr);
 
 private:
   struct Path {

@@ -1,0 +1,35 @@
+#include "render/channels.h"
+
+#include "render/error.h"
+
+namespace lagomorph::render {
+namespace {
+
+constexpr ChannelKind kinds[] = {
+    {.name = depth_channel},
+    {.name = statistics_channel,
+     .components = statistics_components,
+     .cell = statistics_cell,
+     .path_only = true},
+};
+
+}  // namespace
+
+std::span<const ChannelKind> channel_kinds() { return kinds; }
+
+std::vector<std::string> channel_names() {
+  std::vector<std::string> names;
+  for (const ChannelKind& kind : kinds) names.emplace_back(kind.name);
+  return names;
+}
+
+const ChannelKind& channel_kind(std::string_view name) {
+  std::string known;
+  for (const ChannelKind& kind : kinds) {
+    if (name == kind.name) return kind;
+    known += std::string(known.empty() ? "" : ", ") + kind.name;
+  }
+  throw SettingsError("render.channels: unknown channel '" + std::string(name) + "'; known are " + known);
+}
+
+}  // namespace lagomorph::render

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Channels that a renderer draws beside the colour, when asked to.
+namespace lagomorph::render {
+
+inline constexpr char depth_channel[] = "depth";
+inline constexpr char body_id_channel[] = "body_id";
+
+/// Statistics of path-traced light over cells of 8x8 pixels from the picture's corner: mean R, G, B of the
+/// radiance (linear, before exposure and tone curve), the variance of that mean for R, G and B, the number of
+/// batches that the variance was found between (NaN with 1), and of samples a pixel.
+inline constexpr char statistics_channel[] = "tile_statistics";
+inline constexpr int statistics_cell = 8;  // [pixels]
+inline constexpr int statistics_components = 8;
+
+/// A row of the one table of channels.
+struct ChannelKind {
+  const char* name;
+  int components = 1;  // values a cell
+  int cell = 1;        // side of the square that has its own values [pixels]
+  bool path_only = false;
+};
+std::span<const ChannelKind> channel_kinds();
+std::vector<std::string> channel_names();
+/// Throws SettingsError for an unknown name (listing the valid ones).
+const ChannelKind& channel_kind(std::string_view name);
+
+}  // namespace lagomorph::render
