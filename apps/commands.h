@@ -12,6 +12,7 @@ ExitStatus simulate_command(const Options&);  // states and energies only
 ExitStatus render_command(const Options&);    // pictures from RUN's states
 ExitStatus check_command(const Options&);     // a run against its golden
 ExitStatus approve_command(const Options&);   // a run becomes the golden
+ExitStatus preview_command(const Options&);   // what a run is, to look at
 ExitStatus compare_command(const Options&);   // two pictures, one verdict
 ExitStatus info_command(const Options&);      // what a mesh, a scene or a run is
 

@@ -11,6 +11,7 @@
 
 #include "apps/check/junit.h"
 #include "apps/error.h"
+#include "apps/markdown.h"
 #include "apps/one_line.h"
 
 namespace lagomorph::apps {
@@ -35,23 +36,6 @@ double largest(const CheckResult& result, const Figure& figure) {
   return most;
 }
 
-/// Text in a cell of a Markdown table.
-std::string cell(const std::string& text) {
-  std::string out;
-  for (const char c : one_line(text)) {
-    if (c == '|' || c == '`' || c == '*' || c == '_' || c == '[' || c == ']' || c == '\\' || c == '#')
-      out += '\\';
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 std::string verdict(const CheckResult& result) {
   const std::size_t all = result.frames.size();
   if (result.passed()) return fmt::format("{} frame{} the same", all, all == 1 ? "" : "s");
@@ -62,24 +46,26 @@ std::string verdict(const CheckResult& result) {
 std::string summary_row(const CheckResult& result, const FrameResult& frame) {
   std::string why;
   for (const CheckFailure& failure : frame.failures)
-    why += (why.empty() ? "" : "<br>") + cell(failure.line());
-  for (const std::string& hint : frame.hints) why += "<br>" + cell(hint);
+    why += (why.empty() ? "" : "<br>") + markdown_text(failure.line());
+  for (const std::string& hint : frame.hints) why += "<br>" + markdown_text(hint);
   const auto figure = [&](const auto& of) {
     return frame.figures ? fmt::format("{:.4f}", of(*frame.figures)) : "–";
   };
   return fmt::format("| {} | {} | {} | {} | <code>{}</code> |\n", frame.frame, why,
                      figure([](const render::Figures& f) { return f.flip_tile.mean; }),
                      figure([](const render::Figures& f) { return f.flip_mean; }),
-                     cell(frame_commands(result, frame.frame).approve));
+                     markdown_text(frame_commands(result, frame.frame).approve));
 }
 
 std::string summary_head(const CheckResult& result) {
-  std::string text = fmt::format("## {} lagomorph check: {}\n\n{} against {}: {}.\n\n",
-                                 result.passed() ? "✅" : "❌", cell(result.name), cell(result.run.string()),
-                                 cell(result.golden.string()), verdict(result));
-  for (const Cause& cause : result.causes) text += "- " + cell(cause.text) + "\n";
-  for (const SequenceFinding& finding : result.sequence.findings) text += "- " + cell(finding.text) + "\n";
-  for (const std::string& remark : result.remarks) text += "- remark: " + cell(remark) + "\n";
+  std::string text =
+      fmt::format("## {} lagomorph check: {}\n\n{} against {}: {}.\n\n", result.passed() ? "✅" : "❌",
+                  markdown_text(result.name), markdown_text(result.run.string()),
+                  markdown_text(result.golden.string()), verdict(result));
+  for (const Cause& cause : result.causes) text += "- " + markdown_text(cause.text) + "\n";
+  for (const SequenceFinding& finding : result.sequence.findings)
+    text += "- " + markdown_text(finding.text) + "\n";
+  for (const std::string& remark : result.remarks) text += "- remark: " + markdown_text(remark) + "\n";
   return text + "\n";
 }
 

@@ -39,6 +39,8 @@ constexpr CommandRow commands[] = {
      "lagomorph check out/bunny golden/bunny --set limits.flip_mean=0.02", check_command},
     {"approve", "RUN GOLDEN", "make the pictures of a run golden where they fail; passing frames are left",
      "lagomorph approve out/bunny golden/bunny --frames 12..14", approve_command},
+    {"preview", "RUN", "contact sheet, animation, page and summary of a run, or of any numbered PNGs",
+     "lagomorph preview out/bunny --frames 0..59 -o out/look", preview_command},
     {"compare", "A B", "tell whether two pictures are the same, and by how much they differ",
      "lagomorph compare golden.png new.png --heat heat.png", compare_command},
     {"info", "FILE", "tell what a mesh, a scene or a run is", "lagomorph info meshes/bunny.msh --json",
@@ -112,16 +114,16 @@ void apply_ppd(Options& o, const std::string& value) {
 }
 
 constexpr OptionRow option_rows[] = {
-    {"-o,--out", "DIR", " run simulate render check compare ", "where what is made is written",
+    {"-o,--out", "DIR", " run simulate render check preview compare ", "where what is made is written",
      [](Options& o, const std::string& v) { o.out = non_empty(v, "--out"); }},
     {"--set", "KEY=VALUE", " run simulate render info ",
      "a scene key, as in body.0.density=500; VALUE is TOML or a string", apply_set},
     {"--set", "KEY=VALUE", " check ", "a key of golden.toml, as in limits.flip_mean=0.02", apply_set},
-    {"--frames", "A..B", " run simulate render check approve ",
+    {"--frames", "A..B", " run simulate render check approve preview ",
      "only pictures A to B, both included; or one number",
      [](Options& o, const std::string& v) { o.frames = parse_frames(v); }},
     {"--backend", "NAME", " run render ", "raster or path, instead of the scene's", apply_backend},
-    {"--threads", "N", " run simulate render check compare info ",
+    {"--threads", "N", " run simulate render check preview compare info ",
      "at most N threads; never changes a result", apply_threads},
     {"--video", nullptr, " run render ", "also make RUN/<name>.mp4 of the pictures",
      [](Options& o, const std::string&) { o.video = true; }},
@@ -152,9 +154,9 @@ constexpr OptionRow option_rows[] = {
      [](Options& o, const std::string& v) { o.mend = non_empty(v, "--mend"); }},
     {"--keys", nullptr, " info ", "print the table of scene keys",
      [](Options& o, const std::string&) { o.keys = true; }},
-    {"--quiet", nullptr, " run simulate render check approve compare info ", "no progress, only errors",
-     [](Options& o, const std::string&) { o.quiet = true; }},
-    {"--json", nullptr, " run simulate render check approve compare info ",
+    {"--quiet", nullptr, " run simulate render check approve preview compare info ",
+     "no progress, only errors", [](Options& o, const std::string&) { o.quiet = true; }},
+    {"--json", nullptr, " run simulate render check approve preview compare info ",
      "print the result as JSON on stdout", [](Options& o, const std::string&) { o.json = true; }},
 };
 

@@ -114,4 +114,20 @@ std::map<int, FrameRecord> read_records(const RunPaths& paths) {
   return records;
 }
 
+std::map<int, FrameRecord> read_gathered_records(const RunPaths& paths) {
+  std::map<int, FrameRecord> records;
+  try {
+    const Json json = Json::parse(read_file(paths.run_json()));
+    for (const Json& frame : json.at("frames")) {
+      FrameRecord record = from_json(frame);
+      records.insert_or_assign(record.frame, std::move(record));
+    }
+  } catch (const Json::exception&) {
+    records.clear();
+  } catch (const Error&) {
+    records.clear();
+  }
+  return records;
+}
+
 }  // namespace lagomorph::apps

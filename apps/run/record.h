@@ -52,4 +52,8 @@ std::optional<FrameRecord> read_record(const RunPaths&, int frame);
 /// Every record that can be read, by frame. What is no record of ours is left out: its frame is made again.
 std::map<int, FrameRecord> read_records(const RunPaths&);
 
+/// What run.json tells of the frames: the records that were there when it was written. None when it cannot be
+/// read.
+std::map<int, FrameRecord> read_gathered_records(const RunPaths&);
+
 }  // namespace lagomorph::apps

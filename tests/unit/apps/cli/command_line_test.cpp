@@ -105,11 +105,11 @@ TEST(CommandLine, TellsWhatIsWrong) {
       {{}, "no command given; lagomorph --help lists them"},
       {{"rnu"},
        "unknown command 'rnu'; did you mean 'run'? Commands are run, simulate, render, check, approve, "
-       "compare, info"},
+       "preview, compare, info"},
       {{"publish"},
-       "unknown command 'publish'; commands are run, simulate, render, check, approve, compare, info"},
+       "unknown command 'publish'; commands are run, simulate, render, check, approve, preview, compare, info"},
       {{"--quiet", "run"},
-       "'--quiet' where a command is expected (run, simulate, render, check, approve, compare, info); "
+       "'--quiet' where a command is expected (run, simulate, render, check, approve, preview, compare, info); "
        "options follow "
        "the "
        "command"},
