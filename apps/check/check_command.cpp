@@ -30,6 +30,8 @@ void write_reports(const CheckResult& result, const std::string& json) {
 }  // namespace
 
 ExitStatus check_command(const Options& options) {
+  if (options.calibrate) return calibrate_command(options);
+  if (options.yes) wrong_input("--yes is for --calibrate");
   const StopSignals signals;
   const sim::ThreadLimit limit(thread_count(options));
   if (options.github) require_github_summary();

@@ -37,6 +37,7 @@ struct Options {
   bool yes = false;                             // approve --prune --yes
   bool ctest = false;                           // check --ctest
   bool github = false;                          // check --github
+  bool calibrate = false;                       // check --calibrate, with --yes into GOLDEN
 };
 
 }  // namespace lagomorph::apps
