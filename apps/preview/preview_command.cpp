@@ -6,6 +6,7 @@
 #include "apps/pipeline/production.h"
 #include "apps/pipeline/stop.h"
 #include "apps/preview/contact_sheet.h"
+#include "apps/preview/page.h"
 #include "apps/preview/preview.h"
 #include "render/png.h"
 #include "sim/parallel.h"
@@ -47,7 +48,10 @@ ExitStatus preview_command(const Options& options) {
   remove_leftovers(preview.out);
   const WorkFolder work(preview.out);
   make_pictures(preview, work, progress);
+  const std::vector<PageFrame> frames = page_frames(preview.shown, work.path(), [] { return stop_asked(); });
   if (stop_asked()) return stop_status();
+  write_file(preview.out / "index.html", preview_page(preview.material, preview.shown, frames));
+  preview.page = "index.html";
   write_file(preview.out / "summary.md", summary_markdown(preview));
   if (options.json) {
     print(preview_json(preview));
