@@ -6,6 +6,7 @@ namespace lagomorph::render {
 namespace {
 
 constexpr ChannelKind kinds[] = {
+    {.name = color_channel, .components = 3},
     {.name = depth_channel},
     {.name = statistics_channel,
      .components = statistics_components,

@@ -8,6 +8,7 @@
 /// Channels that a renderer draws beside the colour, when asked to.
 namespace lagomorph::render {
 
+inline constexpr char color_channel[] = "color";
 inline constexpr char depth_channel[] = "depth";
 inline constexpr char body_id_channel[] = "body_id";
 

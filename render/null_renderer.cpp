@@ -17,6 +17,7 @@ public:
     Image image(camera.width(), camera.height());
     image.add("color", 3);
     for (const std::string& channel : settings_.channels) {
+      if (channel == color_channel) continue;
       const ChannelKind& kind = channel_kind(channel);
       std::vector<float>& values = image.add(channel, kind.components, kind.cell);
       std::fill(values.begin(), values.end(), std::numeric_limits<float>::infinity());

@@ -5,12 +5,12 @@
 
 #include "apps/cli/print.h"
 #include "apps/commands.h"
+#include "apps/compare/compare_floats.h"
+#include "apps/compare/heat_file.h"
 #include "apps/compare/verdict.h"
 #include "apps/file_io.h"
 #include "apps/pipeline/production.h"
 #include "render/image_compare/flip_filters.h"
-#include "render/image_compare/magma.h"
-#include "render/png.h"
 #include "render/png_read.h"
 #include "sim/parallel.h"
 
@@ -29,8 +29,7 @@ render::Pixels read_picture(const std::string& file) {
 /// The map of FLIP's errors as a picture; black where pictures are equal.
 void write_heat(const fs::path& file, render::ErrorMap map, const render::Pixels& of) {
   if (map.values.empty()) map = {of.width, of.height, std::vector<float>(of.pixel_count())};
-  make_folder(file.parent_path());
-  write_file(file, render::encode_png(render::magma_picture(map), 6));
+  write_heat_map(file, map);
 }
 
 }  // namespace
@@ -38,6 +37,7 @@ void write_heat(const fs::path& file, render::ErrorMap map, const render::Pixels
 ExitStatus compare_command(const Options& options) {
   const sim::ThreadLimit limit(thread_count(options));
   const std::string &a = options.inputs.at(0), &b = options.inputs.at(1);
+  if (is_float_channel(a) && is_float_channel(b)) return compare_floats(options);
   const double pixels_per_degree = options.pixels_per_degree.value_or(render::default_pixels_per_degree);
   const render::Pixels first = read_picture(a), second = read_picture(b);
   PairVerdict verdict = judge_pair(first, second, pixels_per_degree);
