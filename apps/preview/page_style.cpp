@@ -72,7 +72,7 @@ path.s1 { fill: var(--c1); } path.s2 { fill: var(--c2); } path.s3 { fill: var(--
 .sheet a:hover img, .sheet a.current img { box-shadow: 0 0 0 3px var(--accent); }
 details { margin-top: 14px; } summary { cursor: pointer; padding: 12px 16px; font-weight: 600; }
 pre { margin: 0; padding: 0 16px 16px; overflow-x: auto; font: 13px/1.5 ui-monospace, Menlo, Consolas, "DejaVu Sans Mono", monospace; }
-.wide { display: grid; grid-template-columns: repeat(auto-fill, minmax(300px, 1fr)); column-gap: 28px; }
+.wide { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(300px, 100%), 1fr)); column-gap: 28px; }
 .wide div:first-child { border-top: 1px solid var(--line); }
 footer { margin-top: 32px; color: var(--soft); font-size: 13px; }
 @media (max-width: 860px) { .top, .charts { grid-template-columns: minmax(0, 1fr); } }
