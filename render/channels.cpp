@@ -8,6 +8,7 @@ namespace {
 constexpr ChannelKind kinds[] = {
     {.name = color_channel, .components = 3},
     {.name = depth_channel},
+    {.name = body_id_channel},
     {.name = statistics_channel,
      .components = statistics_components,
      .cell = statistics_cell,

@@ -10,6 +10,7 @@ namespace lagomorph::render {
 
 inline constexpr char color_channel[] = "color";
 inline constexpr char depth_channel[] = "depth";
+/// The number of the body that is seen through the pixel's centre, -1 where none is.
 inline constexpr char body_id_channel[] = "body_id";
 
 /// Statistics of path-traced light over cells of 8x8 pixels from the picture's corner: mean R, G, B of the

@@ -27,7 +27,7 @@ struct Mesh {
   std::vector<Vec3> positions;      // [m]
   Material material;
   bool smooth = true;  // false: one normal a triangle
-  int body_id = 0;     // >= 0, written to the body id channel; the ground is -1
+  int body_id = 0;     // >= 0, written to the body id channel; the ground and what is behind it are -1
 };
 
 /// A disc of floor that receives shadows and fades into the background: opaque up to `fade_start` from its

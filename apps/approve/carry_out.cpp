@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <map>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "apps/approve/approve.h"
+#include "apps/check/golden_file.h"
 #include "apps/check/hashes.h"
 #include "apps/check/light_statistics.h"
 #include "apps/file_io.h"
@@ -27,10 +30,19 @@ bool is_there(const fs::path& file) {
   return fs::exists(file, none);
 }
 
+/// The channels that a golden has use for: statistics are small, body ids are where a mask asks for them.
+std::vector<const char*> channels_of(const fs::path& golden) {
+  std::vector<const char*> channels = {render::statistics_channel};
+  const GoldenFile file = read_golden_file(golden, {}, std::nullopt);
+  if (std::any_of(file.masks.begin(), file.masks.end(), [](const MaskRule& m) { return m.body_id; }))
+    channels.push_back(render::body_id_channel);
+  return channels;
+}
+
 /// What lies beside the picture goes with it; of a picture that is not kept, or has none, none stays.
-void keep_statistics(const AcceptedFrame& frame) {
-  const fs::path from = channel_beside(frame.from, render::statistics_channel);
-  const fs::path to = channel_beside(frame.to, render::statistics_channel);
+void keep_channel(const AcceptedFrame& frame, const char* channel) {
+  const fs::path from = channel_beside(frame.from, channel);
+  const fs::path to = channel_beside(frame.to, channel);
   if (frame.only_hash || !is_there(from)) {
     if (is_there(to)) remove_file(to);
     return;
@@ -84,8 +96,9 @@ void carry_out(const ApproveRequest& request, const Approval& approval) {
   RunLock lock(request.golden);
   lock.take(RunLock::Kind::exclusive);
   std::map<int, PictureHash> hashes = read_hashes(request.golden);
+  const std::vector<const char*> channels = channels_of(request.golden);
   for (const AcceptedFrame& frame : approval.accepted) {
-    keep_statistics(frame);
+    for (const char* channel : channels) keep_channel(frame, channel);
     keep_picture(frame, hashes);
     if (!frame.only_hash && !request.variant) hashes.erase(frame.frame);
   }

@@ -43,8 +43,10 @@ void prune(const fs::path& golden, const std::vector<StaleGolden>& stale) {
       hashes.erase(s.frame);
     } else {
       remove_file(s.picture);
-      const fs::path statistics = channel_beside(s.picture, render::statistics_channel);
-      if (std::error_code none; fs::exists(statistics, none)) remove_file(statistics);
+      for (const char* channel : {render::statistics_channel, render::body_id_channel}) {
+        const fs::path file = channel_beside(s.picture, channel);
+        if (std::error_code none; fs::exists(file, none)) remove_file(file);
+      }
     }
   }
   write_hashes(golden, hashes);

@@ -106,8 +106,11 @@ ExitStatus calibrate_command(const Options& options) {
   Progress progress(options.quiet);
   GoldenFile golden = read_golden_file(options.inputs.at(1), options.set, options.preset);
   if (options.pixels_per_degree) golden.pixels_per_degree = *options.pixels_per_degree;
-  const std::vector<CalibrationCase> cases = calibration_cases(
-      {.run = options.inputs.at(0), .frames = options.frames, .threads = threads}, golden, progress);
+  const std::vector<CalibrationCase> cases = calibration_cases({.run = options.inputs.at(0),
+                                                                .golden = options.inputs.at(1),
+                                                                .frames = options.frames,
+                                                                .threads = threads},
+                                                               golden, progress);
   const Proposal proposal = propose_limits(cases);
   const bool has_room = proposal.no_room.empty();
   const fs::path file = has_room ? write_limits(options, proposal, cases) : fs::path();

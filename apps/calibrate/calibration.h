@@ -23,6 +23,7 @@ struct CalibrationCase {
 
 struct CalibrationRequest {
   std::filesystem::path run;
+  std::filesystem::path golden;      // whose body ids masks may mean
   std::optional<FrameRange> frames;  // none: the first, the middle and the last
   int threads = 1;
 };

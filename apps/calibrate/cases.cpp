@@ -103,8 +103,13 @@ private:
 
 class Cases {
 public:
-  Cases(const Redrawer& redrawer, const GoldenFile& golden, Progress& progress)
-      : redrawer_(redrawer), golden_(golden), masks_(golden.masks), progress_(progress) {}
+  Cases(const Redrawer& redrawer, const GoldenFile& golden, const std::filesystem::path& folder,
+        Progress& progress)
+      : redrawer_(redrawer),
+        golden_(golden),
+        golden_folder_(folder),
+        masks_(golden.masks),
+        progress_(progress) {}
 
   std::vector<CalibrationCase> all() {
     for (const int frame : redrawer_.frames()) add_frame(frame);
@@ -148,7 +153,9 @@ private:
     const render::Pixels own = render::to_pixels(own_);
     render::Pixels other = render::to_pixels(picture);
     std::vector<CheckFailure> failures;
-    cover(masks_.of(frame, own.width, own.height, failures), own, other);
+    cover(masks_.of(frame, golden_folder_ / "frames" / frame_file(frame, ".png"), own.width, own.height,
+                    failures),
+          own, other);
     if (!failures.empty()) wrong_input(failures.front().line());
     CalibrationCase c{.name = name, .harmless = harmless, .result = {}};
     c.result.frame = frame;
@@ -159,6 +166,7 @@ private:
 
   const Redrawer& redrawer_;
   const GoldenFile& golden_;
+  const std::filesystem::path& golden_folder_;
   Masks masks_;
   Progress& progress_;
   render::Picture own_;
@@ -170,7 +178,7 @@ private:
 std::vector<CalibrationCase> calibration_cases(const CalibrationRequest& request, const GoldenFile& golden,
                                                Progress& progress) {
   const Redrawer redrawer(request, progress);
-  return Cases(redrawer, golden, progress).all();
+  return Cases(redrawer, golden, request.golden, progress).all();
 }
 
 }  // namespace lagomorph::apps

@@ -111,7 +111,8 @@ void judge(ComparedFrame& compared, const FramePair& pair, const Limits& limits,
   if (!golden_header || !fresh_header) return;
   add_kinds(result, *golden_header, *fresh_header);
   if (!result.passed()) return;
-  const auto mask = masks.of(pair.frame, golden_header->width, golden_header->height, result.failures);
+  const auto mask =
+      masks.of(pair.frame, pair.golden, golden_header->width, golden_header->height, result.failures);
   result.masked = masked_share(mask);
   if (!result.passed()) return;
   if (equal) {

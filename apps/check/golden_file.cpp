@@ -157,7 +157,7 @@ private:
   }
 
   void read_mask(const toml::table& table, const std::string& path) {
-    check_names(table, {"frames", "png", "rectangle"}, "in [[mask]]");
+    check_names(table, {"frames", "png", "rectangle", "body_id"}, "in [[mask]]");
     MaskRule mask;
     mask.frames = frames_of(table, path);
     mask.from = who(document_.place(table.source()));
@@ -166,8 +166,11 @@ private:
     std::vector<int> corners;
     const bool has_rectangle =
         read_key(table, {.name = "rectangle", .bounds = between(0, 1 << 24)}, path, &corners);
-    if (has_png == has_rectangle || (has_png && png.empty())) {
-      wrong_input(fmt::format("{}: {} must have either png or rectangle", mask.from,
+    int body_id = 0;
+    const bool has_id = read_key(table, {.name = "body_id", .bounds = between(-1, 1 << 24)}, path, &body_id);
+    if (has_id) mask.body_id = body_id;
+    if (int{has_png} + int{has_rectangle} + int{has_id} != 1 || (has_png && png.empty())) {
+      wrong_input(fmt::format("{}: {} must have either png, rectangle or body_id", mask.from,
                               path.substr(0, path.size() - 1)));
     }
     if (has_png) mask.png = folder_ / png;

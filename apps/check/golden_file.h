@@ -17,6 +17,7 @@ struct MaskRule {
   std::optional<FrameRange> frames;  // none: all
   std::filesystem::path png;         // pixels brighter than half are left out; empty: the rectangle is
   render::Tile rectangle;            // [pixels]
+  std::optional<int> body_id;        // instead: pixels of this body in the golden's own channel body_id
   std::string from;                  // where it stands
   bool applies_to(int frame) const { return !frames || (frames->first <= frame && frame <= frames->last); }
 };

@@ -1,12 +1,17 @@
 #include "apps/check/mask.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <type_traits>
 
 #include <fmt/format.h>
 
+#include "apps/check/light_statistics.h"
+#include "apps/error.h"
 #include "apps/file_io.h"
+#include "apps/npy.h"
+#include "render/channels.h"
 #include "render/png_read.h"
 
 namespace lagomorph::apps {
@@ -31,6 +36,33 @@ void add(std::vector<std::uint8_t>& mask, int width, const render::Tile& r) {
   }
 }
 
+/// The pixels of a body, of which a golden without the channel, or with another one, tells nothing.
+void add_body(std::vector<std::uint8_t>& mask, const std::filesystem::path& golden, int width, int height,
+              const MaskRule& rule, std::vector<CheckFailure>& failures) {
+  const std::filesystem::path file = channel_beside(golden, render::body_id_channel);
+  try {
+    const NpyFloats ids = read_npy_floats(read_file(file), file.string());
+    const std::size_t shape[] = {static_cast<std::size_t>(height), static_cast<std::size_t>(width)};
+    if (!std::equal(ids.shape.begin(), ids.shape.end(), std::begin(shape), std::end(shape))) {
+      failures.push_back({"mask",
+                          fmt::format("{} has the shape {}, the picture is {}x{}", file.string(),
+                                      shape_text(ids.shape), width, height),
+                          "", rule.from});
+      return;
+    }
+    const auto id = static_cast<float>(*rule.body_id);
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+      if (ids.values[i] == id) mask[i] = 1;
+    }
+  } catch (const Error& error) {
+    if (error.status != ExitStatus::wrong_input) throw;
+    failures.push_back(
+        {"mask",
+         fmt::format("{}; approve takes it from a run with render.channels = [\"body_id\"]", error.what()),
+         "", rule.from});
+  }
+}
+
 /// The part of a rectangle that lies in the picture.
 render::Tile clipped(const render::Tile& r, int width, int height) {
   const int x = std::min(r.x, width), y = std::min(r.y, height);
@@ -41,18 +73,22 @@ render::Tile clipped(const render::Tile& r, int width, int height) {
 
 Masks::Masks(std::span<const MaskRule> rules) : rules_(rules) {
   for (const MaskRule& rule : rules) {
-    if (rule.png.empty() || pictures_.contains(rule.png)) continue;
+    if (rule.png.empty() || rule.body_id || pictures_.contains(rule.png)) continue;
     pictures_[rule.png] = render::read_png(read_file(rule.png), rule.png.string());
   }
 }
 
-std::vector<std::uint8_t> Masks::of(int frame, int width, int height,
+std::vector<std::uint8_t> Masks::of(int frame, const std::filesystem::path& golden, int width, int height,
                                     std::vector<CheckFailure>& failures) const {
   std::vector<std::uint8_t> mask;
   const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   for (const MaskRule& rule : rules_) {
     if (!rule.applies_to(frame)) continue;
     mask.resize(count);
+    if (rule.body_id) {
+      add_body(mask, golden, width, height, rule, failures);
+      continue;
+    }
     if (rule.png.empty()) {
       add(mask, width, clipped(rule.rectangle, width, height));
       continue;

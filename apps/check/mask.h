@@ -18,9 +18,11 @@ public:
   /// Throws what reading the pictures throws.
   explicit Masks(std::span<const MaskRule>);
 
-  /// Which pixels of a frame of this size are left out (1), rows from the top; empty when none are. A mask
-  /// that does not fit, or leaves nothing to compare, is told in `failures`.
-  std::vector<std::uint8_t> of(int frame, int width, int height, std::vector<CheckFailure>& failures) const;
+  /// Which pixels of a frame of this size are left out (1), rows from the top; empty when none are. `golden`
+  /// is its picture there, beside which the channel body_id is. A mask that does not fit, or leaves nothing
+  /// to compare, is told in `failures`.
+  std::vector<std::uint8_t> of(int frame, const std::filesystem::path& golden, int width, int height,
+                               std::vector<CheckFailure>& failures) const;
 
 private:
   std::span<const MaskRule> rules_;

@@ -71,6 +71,7 @@ public:
                               : nullptr;
       draw_color(camera, frame.frame, image.add("color", 3), statistics);
       if (wants(depth_channel)) draw_depth(camera, image.add(depth_channel, 1));
+      if (wants(body_id_channel)) draw_body_ids(camera, image.add(body_id_channel, 1));
     });
     return image;
   }
@@ -117,8 +118,11 @@ private:
     });
   }
 
-  /// One ray through each pixel's centre. The ground is a surface over its whole disc.
-  void draw_depth(const Camera& camera, std::vector<float>& depth) const {
+  /// One ray through each pixel's centre: `seen(ray, hit, t)` gives the pixel's value of what it meets first,
+  /// a mesh (hit.mesh) or the ground (hit.mesh is none), at a distance of t, infinite where there is nothing.
+  /// The ground is a surface over its whole disc.
+  template <class Seen>
+  void draw_seen(const Camera& camera, std::vector<float>& channel, const Seen& seen) const {
     for_tiles(camera, [&](const path::Tile& tile) {
       std::array<Ray, tile_size * tile_size> rays;
       std::array<path::MeshHit, tile_size * tile_size> hits;
@@ -133,14 +137,32 @@ private:
       for (int y = tile.y0; y < tile.y1; ++y) {
         for (int x = tile.x0; x < tile.x1; ++x, ++i) {
           double t = geometry_->meet_ground(rays[i]);
-          if (hits[i].mesh != path::MeshHit::none) t = std::min(t, geometry_->meet(rays[i], hits[i]).t);
+          path::MeshHit hit = hits[i];
+          if (hit.mesh != path::MeshHit::none) {
+            const double to_mesh = geometry_->meet(rays[i], hit).t;
+            if (to_mesh > t) hit.mesh = path::MeshHit::none;
+            t = std::min(t, to_mesh);
+          }
           const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width()) +
                              static_cast<std::size_t>(x);
-          // The ray's length along the view axis; exactly its length where it is orthographic.
-          depth[pixel] =
-              static_cast<float>(t * rays[i].direction.cast<double>().dot(camera.forward().cast<double>()));
+          channel[pixel] = seen(rays[i], hit, t);
         }
       }
+    });
+  }
+
+  void draw_depth(const Camera& camera, std::vector<float>& depth) const {
+    draw_seen(camera, depth, [&](const Ray& ray, const path::MeshHit&, double t) {
+      // The ray's length along the view axis; exactly its length where it is orthographic.
+      return static_cast<float>(t * ray.direction.cast<double>().dot(camera.forward().cast<double>()));
+    });
+  }
+
+  void draw_body_ids(const Camera& camera, std::vector<float>& ids) const {
+    draw_seen(camera, ids, [&](const Ray&, const path::MeshHit& hit, double) {
+      return hit.mesh == path::MeshHit::none
+                 ? -1.0F
+                 : static_cast<float>(scene_.meshes[static_cast<std::size_t>(hit.mesh)].body_id);
     });
   }
 

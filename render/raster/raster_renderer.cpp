@@ -107,6 +107,7 @@ private:
     VertexArray no_attributes;
     std::vector<MeshBuffers> meshes;
     std::optional<Targets> targets;
+    std::optional<Program> mesh_number;  // compiled when it is asked for
   };
 
   void upload_surfaces(const RenderScene&);
@@ -119,6 +120,11 @@ private:
   void draw_background() const;
   void draw_layers() const;
   void draw_depth() const;
+  void draw_body_ids(Image&);
+  bool wants(const char* channel) const {
+    return std::find(settings_.channels.begin(), settings_.channels.end(), channel) !=
+           settings_.channels.end();
+  }
 
   RenderSettings settings_;
   RasterSettings raster_;
@@ -126,6 +132,7 @@ private:
   std::unique_ptr<GlSide> gl_;
   RenderScene scene_;                         // but for the meshes
   std::vector<std::vector<Vec3>> positions_;  // of each mesh
+  std::vector<int> body_ids_;                 // of each mesh
   FrameBlock block_{};
   bool lights_are_stale_ = true;
 };
@@ -145,10 +152,12 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
   scene_ = scene;
   scene_.meshes.clear();
   positions_.clear();
+  body_ids_.clear();
   gl_->meshes.clear();
   for (const Mesh& mesh : scene.meshes) {
     gl_->meshes.emplace_back(mesh);
     positions_.push_back(mesh.positions);
+    body_ids_.push_back(mesh.body_id);
   }
   upload_surfaces(scene);
   gl_->maps.set_scene(scene_, block_);
@@ -224,10 +233,11 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo&) {
   draw_layers();
   glDisable(GL_SCISSOR_TEST);
   targets->read_color(image);
-  if (std::find(settings_.channels.begin(), settings_.channels.end(), "depth") != settings_.channels.end()) {
+  if (wants(depth_channel)) {
     draw_depth();
-    targets->read_depth(image);
+    targets->read_values(image.add(depth_channel, 1));
   }
+  if (wants(body_id_channel)) draw_body_ids(image);
   check_gl("drawing a frame");
   return image;
 }
@@ -348,6 +358,31 @@ void RasterRenderer::draw_depth() const {
   if (!scene_.ground.enabled) return;
   draw_ground_cells(programs.ground_depth, true);
   draw_ground_cells(programs.ground_depth, false);
+}
+
+/// The meshes' numbers from 1 on; the ground hides them and has none.
+void RasterRenderer::draw_body_ids(Image& image) {
+  if (!gl_->mesh_number) {
+    using Parts = std::initializer_list<const char*>;
+    gl_->mesh_number.emplace("mesh number", Parts{shaders::frame, shaders::mesh_vertex},
+                             Parts{shaders::frame, shaders::mesh_number_fragment});
+  }
+  gl_->targets->bind_depth();
+  glEnable(GL_DEPTH_TEST);
+  constexpr std::array<float, 4> nothing = {};
+  glClearBufferfv(GL_COLOR, 0, nothing.data());
+  glClear(GL_DEPTH_BUFFER_BIT);
+  if (scene_.ground.enabled) {
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    draw_ground_cells(gl_->programs.ground_depth, true);
+    draw_ground_cells(gl_->programs.ground_depth, false);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  }
+  draw_meshes(*gl_->mesh_number);
+  std::vector<float>& ids = image.add(body_id_channel, 1);
+  gl_->targets->read_values(ids);
+  for (float& id : ids)
+    id = id > 0.0F ? static_cast<float>(body_ids_[static_cast<std::size_t>(id) - 1]) : -1.0F;
 }
 
 std::string RasterRenderer::description() const {

@@ -76,11 +76,11 @@ void Targets::read_color(Image& image) {
   copy_rows(pixels_, 4, 3, width_, height_, image.add("color", 3));
 }
 
-void Targets::read_depth(Image& image) {
+void Targets::read_values(std::vector<float>& values) {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, depth_target_.id());
   pixels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   glReadPixels(0, 0, width_, height_, GL_RED, GL_FLOAT, pixels_.data());
-  copy_rows(pixels_, 1, 1, width_, height_, image.add("depth", 1));
+  copy_rows(pixels_, 1, 1, width_, height_, values);
 }
 
 }  // namespace lagomorph::render::raster

@@ -22,12 +22,13 @@ public:
   void bind_seen_texture(GLenum unit) const;
   /// Binds the picture, linear colour, with another depth buffer.
   void bind_color() const { bind(color_target_, width_, height_); }
-  /// Binds the depth channel, with the picture's depth buffer.
+  /// Binds a channel of one value a pixel, with the picture's depth buffer.
   void bind_depth();
 
-  /// The picture into the channels "color" and "depth", rows from the top.
+  /// The picture into the channel "color", rows from the top.
   void read_color(Image&);
-  void read_depth(Image&);
+  /// The channel of one value a pixel, likewise.
+  void read_values(std::vector<float>&);
 
 private:
   int width_, height_, samples_;

@@ -280,6 +280,14 @@ out float depth;
 void main() { depth = dot(world - eye.xyz, forward.xyz); }
 )";
 
+const char* const mesh_number_fragment = R"(
+in vec3 world;
+in vec3 smooth_normal;
+uniform uint surface;
+out float number;
+void main() { number = float(surface); }
+)";
+
 const char* const ground_depth_fragment = R"(
 out float depth;
 void main() {

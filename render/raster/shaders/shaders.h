@@ -28,6 +28,7 @@ extern const char* const ground_cover_fragment;
 extern const char* const ground_map_fragment;
 extern const char* const depth_map_fragment;
 extern const char* const mesh_depth_fragment;
+extern const char* const mesh_number_fragment;
 extern const char* const ground_depth_fragment;
 
 }  // namespace lagomorph::render::raster::shaders

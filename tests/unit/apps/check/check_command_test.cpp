@@ -1,5 +1,6 @@
 #include <set>
 
+#include "apps/npy.h"
 #include "tests/support/check_fixture.h"
 #include "tests/support/png_maker.h"
 
@@ -95,7 +96,7 @@ TEST_F(CheckCommand, WrongGoldensAreRefusedWithTheirPlace) {
       {"[limits]\nflip_mean = \"none\"\n", ":2:13: limits.flip_mean must be a number or \"off\""},
       {"[[range]]\npreset = \"mc\"\n", ":1:1: range.0.frames is missing"},
       {"[[range]]\nframes = \"5..3\"\n", ":2:10: range.0.frames = 5..3: the first frame, 5, is after"},
-      {"[[mask]]\nframes = 3\n", ":1:1: mask.0 must have either png or rectangle"},
+      {"[[mask]]\nframes = 3\n", ":1:1: mask.0 must have either png, rectangle or body_id"},
       {"[[mask]]\nrectangle = [1, 2, 3]\n", "mask.0.rectangle must be [x, y, width, height] in pixels"},
       {"[[mask]]\npng = \"none.png\"\n", "none.png: cannot be read"},
       {"keep_every = 0\n", "keep_every = 0 is out of range"},
@@ -151,6 +152,35 @@ TEST_F(CheckCommand, MasksLeavePixelsOutAndTellTheirShare) {
   EXPECT_NE(
       report(1)["frames"][0]["failures"][0]["found"].get<std::string>().find("is 1x1, the picture 320x180"),
       std::string::npos);
+}
+
+TEST_F(CheckCommand, AMaskMayBeABodyOfTheGoldensOwnChannel) {
+  add_run(0, flip_file("spheres_moved.png"));
+  add_golden(0, flip_file("spheres_ref.png"));
+  limits("[[mask]]\nbody_id = 2\n");
+  const Json none = report(1)["frames"][0]["failures"][0];
+  EXPECT_EQ(none["rule"], "mask");
+  EXPECT_NE(none["line"].get<std::string>().find("approve takes it from a run with render.channels"),
+            std::string::npos)
+      << none;
+  std::vector<float> ids(320 * 180, -1);
+  for (std::size_t y = 64; y < 160; ++y)
+    std::fill_n(ids.begin() + static_cast<std::ptrdiff_t>(320 * y + 128), 128, 2.0F);
+  const std::vector<std::size_t> shape = {180, 320};
+  const std::string channel = apps::npy_bytes(ids, shape);
+  dir_.write("golden/aov/body_id/frame_0000.npy", channel);
+  const Ended ended = check();
+  EXPECT_EQ(ended.status, 0) << ended.out;
+  EXPECT_NE(ended.out.find("masked: 21.33 % of every picture\n"), std::string::npos) << ended.out;
+  limits("[[mask]]\nbody_id = 1\n");
+  EXPECT_EQ(rules(report(1)), Json::parse(R"({"0": ["flip_tile_max"]})"));
+  ids.pop_back();
+  dir_.write("golden/aov/body_id/frame_0000.npy", apps::npy_bytes(ids, std::vector<std::size_t>{ids.size()}));
+  EXPECT_EQ(rules(report(1)), Json::parse(R"({"0": ["mask"]})"));
+  // Approving takes the run's channel along.
+  dir_.write("run/aov/body_id/frame_0000.npy", channel);
+  EXPECT_EQ(run_program({"approve", at("run").string(), at("golden").string()}).status, 0);
+  EXPECT_EQ(read_all(at("golden/aov/body_id/frame_0000.npy")), channel);
 }
 
 TEST_F(CheckCommand, AlphaIsCompared) {

@@ -1,5 +1,7 @@
 #include <cmath>
 #include <limits>
+#include <map>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -104,6 +106,43 @@ TEST(RasterDepth, OfASphereMeetsItsOutline) {
       }
     }
   }
+}
+
+// Both back ends tell the same body but along outlines; one behind the ground or another body is not seen.
+TEST(BodyId, IsTheSameInBothBackEnds) {
+  RenderScene scene = empty_scene();
+  scene.ground.enabled = true;
+  scene.meshes = {sphere(Vec3(-0.3F, 0.3F, 0), 0.4F, 24),
+                  box(Vec3(0.1F, -0.2F, -0.2F), Vec3(0.6F, 0.3F, 0.2F)), sphere(Vec3(0, -0.8F, 0), 0.3F, 12)};
+  scene.meshes[0].body_id = 7;
+  scene.meshes[1].body_id = 0;
+  scene.meshes[2].body_id = 3;
+  RenderSettings settings = small_settings();
+  settings.channels = {body_id_channel, depth_channel};
+  settings.samples = 1;
+  std::vector<Image> images;
+  for (const char* backend : {"raster", "path"}) {
+    settings.backend = backend;
+    const auto renderer = make_renderer(settings, 2);
+    renderer->set_scene(scene);
+    images.push_back(renderer->render(Camera(three_quarter(), settings.width, settings.height), {0, 0.0}));
+  }
+  const std::vector<float>&a = images[0].find(body_id_channel)->values,
+        &b = images[1].find(body_id_channel)->values;
+  std::map<float, int> seen;
+  int differ = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    differ += a[i] != b[i] ? 1 : 0;
+    ++seen[a[i]];
+    if (a[i] >= 0) {
+      EXPECT_TRUE(std::isfinite(images[0].find(depth_channel)->values[i]));
+    }
+  }
+  EXPECT_LT(differ, 30);
+  EXPECT_EQ(seen.size(), 3U);
+  EXPECT_GT(seen[-1], 1000);
+  EXPECT_GT(seen[7], 300);
+  EXPECT_GT(seen[0], 100);
 }
 
 TEST(RasterDepth, TheGroundIsADiscAndASurface) {
