@@ -41,6 +41,55 @@ TEST_F(CheckCommand, FailuresHaveNamesOfTheirOwn) {
   EXPECT_EQ(json["sequence"], Json::parse(R"({"first_bad": 1, "bad": [[1, 7]], "findings": []})"));
 }
 
+TEST_F(CheckCommand, OddPicturesAreComparedRightlyOrTold) {
+  const auto make = [](PngSpec spec, unsigned step) {
+    spec.width = 40, spec.height = 30;
+    for (unsigned i = 0; i < 40 * 30; ++i) {
+      for (int c = 0; c < spec.stored_channels(); ++c) spec.samples.push_back(i * 13 / 7 % 4 * step);
+    }
+    return make_png(spec);
+  };
+  const std::string rgb = make({}, 85), interlaced = make({.interlaced = true}, 85);
+  const std::string palette =
+      make({.depth = 2, .color_type = 3, .palette = std::string("\0\0\0UUU\xAA\xAA\xAA\xFF\xFF\xFF", 12)}, 1);
+  const std::string deep = make({.depth = 16}, 0x5555), grey = make({.color_type = 0}, 85);
+  const std::string huge = png_signature + png_header({.width = 2000000000, .height = 2000000000}) +
+                           png_chunk("IDAT", "x") + png_chunk("IEND", "");
+  const struct {
+    std::string golden, fresh, rule, how;
+  } cases[] = {
+      {rgb, interlaced, "", "pixels"},
+      {interlaced, palette, "", "pixels"},
+      {deep, deep, "", "bytes"},
+      {grey, grey, "", "bytes"},
+      {deep, make({.depth = 16}, 0x5554), "", "metrics"},
+      {grey, make({.color_type = 0}, 60), "flip_tile_max", "metrics"},
+      {rgb, make({}, 60), "flip_tile_max", "metrics"},
+      {palette, grey, "channels", "nothing"},
+      {flip_file("one_a.png"), flip_file("one_a.png"), "", "bytes"},
+      {flip_file("one_a.png"), flip_file("one_b.png"), "flip_tile_max", "metrics"},
+      {flip_file("one_a.png"), rgb, "size", "nothing"},
+      {rgb, huge, "unreadable", "nothing"},
+      {huge, huge, "unreadable", "nothing"},
+      {rgb, rgb.substr(0, rgb.size() - 1), "unreadable", "nothing"},
+      {rgb, "", "unreadable", "nothing"},
+  };
+  int frame = 0;
+  for (const auto& c : cases) {
+    add_golden(frame, c.golden);
+    add_run(frame++, c.fresh);
+  }
+  const Json json = report(1);
+  for (std::size_t i = 0; i < std::size(cases); ++i) {
+    const Json& told = json["frames"][i];
+    EXPECT_EQ(told["decided_by"], cases[i].how) << told;
+    EXPECT_EQ(told["failures"].empty(), cases[i].rule.empty()) << told;
+    if (!cases[i].rule.empty() && !told["failures"].empty()) {
+      EXPECT_EQ(told["failures"][0]["rule"], cases[i].rule) << told;
+    }
+  }
+}
+
 TEST_F(CheckCommand, AFailureNamesRuleFigureLimitAndWhereItCameFrom) {
   limits("preset = \"render\"\n[limits]\nflip_mean = 0.001\nflip_tile_max = \"off\"\n");
   add_golden(0, flip_file("spheres_ref.png"));
