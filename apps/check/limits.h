@@ -47,6 +47,9 @@ std::vector<std::string> limit_names();
 struct LimitValue {
   std::optional<double> value;  // none: the figure is not held to anything
   std::string from;
+  /// Instead, where the light itself was tested: that tells noise from a fault, the picture's tiles need only
+  /// guard what comes after the light. None: `value` always.
+  std::optional<double> light_tested = {};
 };
 
 /// All limits of a frame.

@@ -80,6 +80,24 @@ TEST_F(MonteCarlo, WithoutStatisticsThePicturesDecideAndTheResultSaysSo) {
   EXPECT_EQ(report(0).at("remarks").size(), 0U);  // nobody asked
 }
 
+// Metal at 2 samples against 64 is noisier than limits on pictures can allow; the test knows it for noise.
+TEST_F(MonteCarlo, StatisticsTellStrongNoiseFromAFault) {
+  const std::vector<std::string> metal = {"body.0.look.metallic=1", "body.0.look.roughness=0.1"};
+  draw("golden", 64, 1, metal);
+  draw("run", 2, 2, metal);
+  const Json passed = frame(0);
+  EXPECT_GT(passed.at("figures").at("flip_tile_max"), 0.2);
+  // A limit that the golden or the command line sets stays as it is.
+  EXPECT_EQ(rules(report(1, {"--preset", "mc", "--set", "limits.flip_tile_max=0.2"})),
+            (Json{{"2", {"flip_tile_max"}}}));
+  std::filesystem::remove_all(at("golden/aov"));
+  EXPECT_NE(rules(report(1, {"--preset", "mc"})).at("2").dump().find("flip_tile_max"), std::string::npos);
+  // What lies after the light is still seen.
+  draw("golden", 64, 1, metal);
+  draw("run", 64, 2, {metal[0], metal[1], "render.exposure=0.1"});
+  EXPECT_EQ(rules(report(1, {"--preset", "mc"})).at("2").dump(), R"(["flip_mean","bias_mean"])");
+}
+
 TEST_F(MonteCarlo, OneSampleAPixelTestsNothing) {
   draw("golden", 16, 1);
   draw("run", 1, 2);
