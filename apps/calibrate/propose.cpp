@@ -74,14 +74,13 @@ Choice choice_of(const Spread& s, const std::set<std::string>& left) {
 }
 
 ProposedLimit between(const CalibratedFigure& figure, const Spread& s, const std::set<std::string>& faults) {
-  const Told* least = nullptr;
+  Told least{std::numeric_limits<double>::infinity(), nullptr};
   for (const std::string& fault : faults) {
-    const Told& told = s.faults.at(fault);
-    if (least == nullptr || told.value < least->value) least = &told;
+    if (s.faults.at(fault).value < least.value) least = s.faults.at(fault);
   }
-  const double limit = s.harmless.value > 0 ? std::sqrt(s.harmless.value * least->value) : least->value / 2;
+  const double limit = s.harmless.value > 0 ? std::sqrt(s.harmless.value * least.value) : least.value / 2;
   return {figure.name, three_digits(limit),
-          fmt::format("harmless up to {}, faults from {}", s.harmless.text(), least->text())};
+          fmt::format("harmless up to {}, faults from {}", s.harmless.text(), least.text())};
 }
 
 /// The figure that is preferred is limited by whatever it tells, though another tells more.

@@ -15,14 +15,17 @@ TileStatistics::TileStatistics(const Tile& tile, int samples)
       samples_(samples),
       batches_(std::min(samples, most_batches)),
       columns_(cells(tile.x1 - tile.x0)) {
-  const auto n = static_cast<std::size_t>(columns_ * cells(tile.y1 - tile.y0) * batches_);
+  const std::size_t n = static_cast<std::size_t>(columns_) *
+                        static_cast<std::size_t>(cells(tile.y1 - tile.y0)) *
+                        static_cast<std::size_t>(batches_);
   sums_.assign(n, Eigen::Array3d::Zero());
   counts_.assign(n, 0);
 }
 
 void TileStatistics::add(int x, int y, int sample, const Color& radiance) {
   const int cell = (y - tile_.y0) / statistics_cell * columns_ + (x - tile_.x0) / statistics_cell;
-  const auto i = static_cast<std::size_t>(cell * batches_ + sample * batches_ / samples_);
+  const std::size_t i = static_cast<std::size_t>(cell) * static_cast<std::size_t>(batches_) +
+                        static_cast<std::size_t>(sample * batches_ / samples_);
   sums_[i] += radiance.cast<double>();
   ++counts_[i];
 }
