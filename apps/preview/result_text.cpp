@@ -24,6 +24,7 @@ std::vector<std::string> files_of(const Preview& preview) {
 
 std::vector<int> numbers(const auto& frames) {
   std::vector<int> all;
+  all.reserve(frames.size());
   for (const auto& frame : frames) all.push_back(frame.first);
   return all;
 }

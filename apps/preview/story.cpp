@@ -25,6 +25,7 @@ std::string seconds_text(double seconds) {
 
 std::vector<int> numbers(const auto& frames) {
   std::vector<int> all;
+  all.reserve(frames.size());
   for (const auto& frame : frames) all.push_back(frame.first);
   return all;
 }
