@@ -18,6 +18,7 @@ struct ApproveRequest {
   std::optional<std::filesystem::path> report;  // report.json: only the frames that failed there
   std::optional<std::string> variant;           // into the golden's variant of this name
   bool passing_too = false;                     // also frames that pass already
+  std::optional<int> states_every;              // for the first golden.toml
 };
 
 /// A frame whose golden is made or renewed.
@@ -25,6 +26,7 @@ struct AcceptedFrame {
   int frame = 0;
   std::filesystem::path from;        // RUN's picture
   std::filesystem::path to;          // the golden's
+  std::filesystem::path state;       // RUN's state, to be kept too; empty: it is not
   bool only_hash = false;            // the picture itself is not kept
   bool is_new = false;               // there was no golden
   std::vector<std::string> changes;  // the rules that its golden broke, and what it looks like
@@ -40,7 +42,8 @@ struct Approval {
 /// when RUN has no such pictures, one of them is no whole PNG, or is another than the report judged.
 Approval plan_approval(const ApproveRequest&, Progress&);
 
-/// Does it: pictures, hashes.json, golden.toml where there is none, run.json. Each file whole or not at all.
+/// Does it: pictures, hashes.json, golden.toml where there is none, run.json, states. Each file whole or not
+/// at all.
 void carry_out(const ApproveRequest&, const Approval&);
 
 }  // namespace lagomorph::apps

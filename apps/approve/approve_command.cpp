@@ -61,7 +61,7 @@ ExitStatus prune_command(const Options& options, const fs::path& run, const fs::
   Json list = Json::array();
   std::string text;
   for (const StaleGolden& s : stale) {
-    const std::string what = s.picture.empty() ? "hash" : s.picture.string();
+    const std::string what = s.file.empty() ? "hash" : s.file.string();
     list.push_back({{"frame", s.frame}, {"what", what}});
     text += fmt::format("frame {}: {}\n", s.frame, what);
   }
@@ -93,7 +93,8 @@ ExitStatus approve_command(const Options& options) {
                                .frames = options.frames,
                                .report = options.report,
                                .variant = options.variant,
-                               .passing_too = options.force};
+                               .passing_too = options.force,
+                               .states_every = options.states_every};
   const Approval approval = plan_approval(request, progress);
   carry_out(request, approval);
   if (options.json) {

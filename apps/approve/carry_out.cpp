@@ -12,6 +12,7 @@
 #include "apps/file_io.h"
 #include "apps/hash.h"
 #include "apps/run/lock.h"
+#include "apps/run/paths.h"
 #include "render/channels.h"
 #include "render/png_read.h"
 
@@ -21,9 +22,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr char first_golden_toml[] =
-    "# What pictures of this golden may differ by; see \"Golden-image checks\" in Lagomorph's README.\n"
-    "preset = \"render\"\n";
+std::string first_golden_toml(const ApproveRequest& request) {
+  std::string text =
+      "# What pictures of this golden may differ by; see \"Golden-image checks\" in Lagomorph's README.\n"
+      "preset = \"render\"\n";
+  if (request.states_every) text += fmt::format("states_every = {}\n", *request.states_every);
+  return text;
+}
 
 bool is_there(const fs::path& file) {
   std::error_code none;
@@ -60,6 +65,17 @@ void keep_picture(const AcceptedFrame& frame, std::map<int, PictureHash>& hashes
   }
   make_folder(frame.to.parent_path());
   write_file_if_changed(frame.to, bytes, Durable::yes);
+}
+
+/// The state beside the picture that shows it; an older one of another picture would mislead.
+void keep_state(const AcceptedFrame& frame, const fs::path& root) {
+  const fs::path to = RunPaths(root).state(frame.frame);
+  if (frame.state.empty()) {
+    if (is_there(to)) remove_file(to);
+    return;
+  }
+  make_folder(to.parent_path());
+  write_file_if_changed(to, read_file(frame.state), Durable::yes);
 }
 
 /// What run.json tells of the golden's frames: of those accepted what RUN's tells, of the others what was
@@ -104,8 +120,9 @@ void carry_out(const ApproveRequest& request, const Approval& approval) {
   }
   write_hashes(request.golden, hashes);
   if (!is_there(request.golden / "golden.toml"))
-    write_file(request.golden / "golden.toml", first_golden_toml, Durable::yes);
+    write_file(request.golden / "golden.toml", first_golden_toml(request), Durable::yes);
   const fs::path root = request.variant ? request.golden / "variants" / *request.variant : request.golden;
+  for (const AcceptedFrame& frame : approval.accepted) keep_state(frame, root);
   const bool whole = !request.frames && !request.report;
   keep_run_json(request.run / "run.json", root / "run.json", approval, whole);
 }

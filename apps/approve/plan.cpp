@@ -40,9 +40,9 @@ std::map<int, std::string> failed_in(const fs::path& report) {
   return failed;
 }
 
-bool is_there(const fs::path& folder) {
+bool is_there(const fs::path& path) {
   std::error_code none;
-  return fs::exists(folder, none);
+  return fs::exists(path, none);
 }
 
 /// Where the golden's picture of a frame is, or goes: beside the others of its kind.
@@ -81,8 +81,9 @@ public:
     if (request_.report) judged_ = failed_in(*request_.report);
     if (is_there(request_.golden)) {
       golden_ = read_golden_folder(request_.golden);
-      file_ = read_golden_file(request_.golden, {}, std::nullopt);
     }
+    file_ = read_golden_file(request_.golden, {}, std::nullopt);
+    choose_states();
     bool any = false;
     for (const auto& [frame, picture] : run.pictures) any |= is_wanted(frame);
     if (request_.report) {
@@ -138,6 +139,7 @@ private:
     AcceptedFrame accepted{.frame = frame.frame,
                            .from = frame.fresh,
                            .to = place_of(request_, golden_, frame.frame, frame.fresh),
+                           .state = state_of(frame.frame),
                            .only_hash = !request_.variant && frame.frame % file_.keep_every != 0,
                            .is_new = !frame.failures.empty() && frame.failures.front().rule == "extra",
                            .changes = {}};
@@ -146,6 +148,24 @@ private:
       accepted.changes.insert(accepted.changes.end(), frame.hints.begin(), frame.hints.end());
     }
     approval_.accepted.push_back(std::move(accepted));
+  }
+
+  /// golden.toml is what later approvals go by, so that none may say otherwise.
+  void choose_states() {
+    if (!request_.states_every || *request_.states_every == file_.states_every) return;
+    const fs::path toml = request_.golden / "golden.toml";
+    if (is_there(toml)) {
+      wrong_input(fmt::format("--states {}: {} says states_every = {}; change it there",
+                              *request_.states_every, toml.string(), file_.states_every));
+    }
+    file_.states_every = *request_.states_every;
+  }
+
+  /// The state that is to be kept of a frame, where RUN has it.
+  fs::path state_of(int frame) const {
+    if (file_.states_every == 0 || frame % file_.states_every != 0) return {};
+    const fs::path file = RunPaths(request_.run).state(frame);
+    return is_there(file) ? file : fs::path();
   }
 
   /// Who approves a report has seen these pictures and no others.

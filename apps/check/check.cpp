@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 
+#include "apps/check/causes.h"
 #include "apps/check/compare_frame.h"
 #include "apps/check/golden_file.h"
 #include "apps/check/golden_folder.h"
@@ -81,6 +82,7 @@ public:
     draw_flickering(result.frames);
     result.sequence = analyse_sequence(result.frames, probes_);
     result.remarks = remarks(result.frames);
+    if (!result.passed()) tell_causes(result);
     result.seconds = watch.seconds();
     return result;
   }
@@ -223,6 +225,21 @@ private:
       write_heat(request_.out, again);
       frame.heat = again.result.heat;
       frame.panel = again.result.panel;
+    }
+  }
+
+  /// A folder of pictures alone has no story, and nobody expects causes of it.
+  void tell_causes(CheckResult& result) const {
+    const std::optional<RunStory> run = read_run_story(request_.run);
+    if (!run) return;
+    std::optional<RunStory> golden;
+    if (request_.variant) golden = read_run_story(request_.golden / "variants" / *request_.variant);
+    if (!golden) golden = read_run_story(request_.golden);
+    if (golden) {
+      result.causes = find_causes(*run, *golden, result.frames);
+    } else {
+      result.remarks.push_back(
+          fmt::format("{}: there is no run.json, so that causes cannot be told", request_.golden.string()));
     }
   }
 

@@ -37,8 +37,10 @@ public:
 
   GoldenFile read() {
     const toml::table& root = document_.root();
-    check_names(root, {"preset", "pixels_per_degree", "extra", "keep_every", "limits", "range", "mask"},
-                "at the top");
+    check_names(
+        root,
+        {"preset", "pixels_per_degree", "extra", "keep_every", "states_every", "limits", "range", "mask"},
+        "at the top");
     golden_.pixels_per_degree = render::default_pixels_per_degree;
     GoldenFile::Rules base;
     base.preset = {default_preset, "the default"};
@@ -53,6 +55,7 @@ public:
     read_key(root, {.name = "extra", .choices = extra_choices}, "", &extra);
     golden_.ignore_extra = extra == "ignore";
     read_key(root, {.name = "keep_every", .bounds = at_least(1)}, "", &golden_.keep_every);
+    read_key(root, {.name = "states_every", .bounds = at_least(0)}, "", &golden_.states_every);
     each(root, "range", [&](const toml::table& t, const std::string& path) { read_range(t, path); });
     each(root, "mask", [&](const toml::table& t, const std::string& path) { read_mask(t, path); });
     golden_.rules_.push_back(std::move(strongest_));

@@ -28,6 +28,7 @@ public:
   double pixels_per_degree = 0;
   bool ignore_extra = false;  // frames that only RUN has are no failure
   int keep_every = 1;         // approve keeps the pictures of every so many frames, of the others only hashes
+  int states_every = 0;       // approve keeps the states of every so many frames, for telling causes; 0: none
   std::vector<MaskRule> masks;
 
   /// Of a frame.

@@ -87,6 +87,16 @@ void apply_threads(Options& o, const std::string& value) {
   o.threads = n;
 }
 
+void apply_states(Options& o, const std::string& value) {
+  int n = 0;
+  const char* end = value.data() + value.size();
+  const auto [stop, error] = std::from_chars(value.data(), end, n);
+  if (error != std::errc() || stop != end || n < 0) {
+    wrong_input(fmt::format("--states {}: must be a whole number, 0 or more", value));
+  }
+  o.states_every = n;
+}
+
 void apply_preset(Options& o, const std::string& value) {
   const std::vector<std::string> names = preset_names();
   if (std::find(names.begin(), names.end(), value) == names.end()) {
@@ -138,6 +148,8 @@ constexpr OptionRow option_rows[] = {
      [](Options& o, const std::string& v) { o.report = non_empty(v, "--report"); }},
     {"--force", nullptr, " approve ", "renew passing frames too",
      [](Options& o, const std::string&) { o.force = true; }},
+    {"--states", "N", " approve ", "for a new golden: keep every Nth frame's state too, for telling causes",
+     apply_states},
     {"--prune", nullptr, " approve ", "approve nothing; list goldens of frames that RUN does not have",
      [](Options& o, const std::string&) { o.prune = true; }},
     {"--yes", nullptr, " approve ", "with --prune: delete them",

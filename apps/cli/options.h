@@ -30,6 +30,7 @@ struct Options {
   bool keys = false;                            // info --keys: the table of scene keys
   std::optional<double> pixels_per_degree;      // compare, check --ppd
   std::optional<std::filesystem::path> heat;    // compare --heat FILE.png
+  std::optional<int> states_every;              // approve --states
   std::optional<std::string> preset;            // check --preset
   std::optional<std::string> variant;           // check, approve --variant
   std::optional<std::filesystem::path> report;  // approve --report report.json

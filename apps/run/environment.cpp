@@ -8,6 +8,7 @@
 #include <gnu/libc-version.h>
 #include <nlohmann/json.hpp>
 #include <openssl/crypto.h>
+#include <tbb/global_control.h>
 #include <tbb/version.h>
 
 #include "apps/run/build_id.h"
@@ -75,6 +76,7 @@ Json dependency_versions(const std::string& renderer) {
 Json machine_description() {
   return {{"cpu", cpu_model()},
           {"cores", std::thread::hardware_concurrency()},
+          {"threads", tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)},
           {"instruction_set", instruction_set()}};
 }
 

@@ -29,19 +29,6 @@ std::string shortened(const std::string* value) {
   return value->size() <= most ? *value : value->substr(0, most - 3) + "...";
 }
 
-void add_differences(const Keys& there, const Keys& wanted, std::vector<std::string>& out) {
-  const auto add = [&](const std::string& key, const std::string* a, const std::string* b) {
-    out.push_back(key + " " + shortened(a) + " -> " + shortened(b));
-  };
-  for (const ResolvedKey& k : wanted) {
-    const std::string* old = find(there, k.key);
-    if (old == nullptr || *old != k.value) add(k.key, old, &k.value);
-  }
-  for (const ResolvedKey& k : there) {
-    if (find(wanted, k.key) == nullptr) add(k.key, &k.value, nullptr);
-  }
-}
-
 }  // namespace
 
 Identity::Identity(Keys simulation, Keys picture, Keys simulation_build, Keys picture_build)
@@ -58,12 +45,30 @@ Identity make_identity(const SceneDesc& scene, const std::string& renderer) {
           renderer.empty() ? Keys{} : picture_build_keys(renderer)};
 }
 
+std::vector<std::string> key_differences(const Keys& there, const Keys& wanted) {
+  std::vector<std::string> out;
+  const auto add = [&](const std::string& key, const std::string* a, const std::string* b) {
+    out.push_back(key + " " + shortened(a) + " -> " + shortened(b));
+  };
+  for (const ResolvedKey& k : wanted) {
+    const std::string* old = find(there, k.key);
+    if (old == nullptr || *old != k.value) add(k.key, old, &k.value);
+  }
+  for (const ResolvedKey& k : there) {
+    if (find(wanted, k.key) == nullptr) add(k.key, &k.value, nullptr);
+  }
+  return out;
+}
+
 std::vector<std::string> differences(const Identity& there, const Identity& wanted, bool with_pictures) {
   std::vector<std::string> out;
-  add_differences(there.simulation(), wanted.simulation(), out);
-  if (with_pictures) add_differences(there.picture(), wanted.picture(), out);
-  add_differences(there.simulation_build(), wanted.simulation_build(), out);
-  if (with_pictures) add_differences(there.picture_build(), wanted.picture_build(), out);
+  const auto add = [&](const Keys& a, const Keys& b) {
+    for (std::string& line : key_differences(a, b)) out.push_back(std::move(line));
+  };
+  add(there.simulation(), wanted.simulation());
+  if (with_pictures) add(there.picture(), wanted.picture());
+  add(there.simulation_build(), wanted.simulation_build());
+  if (with_pictures) add(there.picture_build(), wanted.picture_build());
   return out;
 }
 

@@ -36,7 +36,10 @@ private:
 /// The scene's keys and this program's build. `renderer` is Renderer::description(); empty when none draws.
 Identity make_identity(const SceneDesc&, const std::string& renderer);
 
-/// One text a key that differs, "body.0.density 1000 -> 500", in order. Pictures' keys only when
+/// One text a key that differs, "body.0.density 1000 -> 500", in order.
+std::vector<std::string> key_differences(const std::vector<ResolvedKey>& there,
+                                         const std::vector<ResolvedKey>& wanted);
+/// The same of the scene's keys, then the build's. Pictures' keys only when
 /// `with_pictures`.
 std::vector<std::string> differences(const Identity& there, const Identity& wanted, bool with_pictures);
 

@@ -16,7 +16,7 @@ inline std::filesystem::path data_file(const std::string& name) {
 }
 
 /// Every file of a folder by its relative path, as two runs of the same scene have them: without the seconds
-/// that records and run.json tell.
+/// and the number of threads that records and run.json tell.
 inline std::map<std::string, std::string> tree(const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -25,6 +25,7 @@ inline std::map<std::string, std::string> tree(const std::filesystem::path& fold
     if (entry.path().extension() == ".json") {
       nlohmann::json json = nlohmann::json::parse(contents);
       json.erase("seconds");
+      if (json.contains("machine")) json["machine"].erase("threads");
       if (json.contains("frames")) {
         for (nlohmann::json& frame : json["frames"]) frame.erase("seconds");
       }
