@@ -9,12 +9,24 @@ namespace lagomorph::sim {
 
 namespace {
 
+/// Dead loads in the balance of a step: at its end, in its middle, and the mean of both ends. [N]
+VecX load_at_end(const Model& model, double t, double h) { return model.load_force(t + h); }
+VecX load_in_middle(const Model& model, double t, double h) { return model.load_force(t + 0.5 * h); }
+VecX mean_load(const Model& model, double t, double h) {
+  return 0.5 * (model.load_force(t) + model.load_force(t + h));
+}
+
 /// A fully implicit scheme: the potential whose minimum is the end of the step, and the velocity there.
 struct Scheme {
   const char* name;
   int history_levels;
   IncrementalPotential (*potential)(const Model&, const State&, double h);
   VecX (*velocity)(const State&, const VecX& q1, double h);
+  VecX (*load)(const Model&, double t, double h);
+  double weight = 1.0;  // ∂Φ/∂q is so many times M (q̇1 - q̇0)/h, or what stands for it, plus the other forces
+  /// q1 - q0 = h (q̇0 + q̇1)/2: driven coordinates would swing about their velocity for ever, so they are given
+  /// that of their motion, and M (q̇1 - q̇0) has it.
+  bool gives_driven_velocity = false;
 };
 
 /// M (q1 - q0 - h q̇0) = -h² ∂V/∂q(q1), q̇1 = (q1 - q0)/h. (lecture, "Backward Euler")
@@ -29,6 +41,7 @@ constexpr Scheme kBackwardEuler = {
           return phi;
         },
     .velocity = [](const State& s, const VecX& q1, double h) -> VecX { return (q1 - s.q) / h; },
+    .load = load_at_end,
 };
 
 /// q1 = 4/3 q0 - 1/3 q₋1 + 2/3 h q̇1, and the same of M q̇ with -∂V/∂q(q1) for its rate: second order, and as
@@ -48,6 +61,7 @@ constexpr Scheme kBdf2 = {
     .velocity = [](const State& s, const VecX& q1, double h) -> VecX {
       return (3.0 * (q1 - s.q) - (s.q - s.history.front().q)) / (2.0 * h);
     },
+    .load = load_at_end,
 };
 
 /// M (q̇1 - q̇0) = -h ∂V/∂q((q0 + q1)/2), q1 - q0 = h (q̇0 + q̇1)/2: second order, symplectic, keeps momentum
@@ -67,6 +81,8 @@ constexpr Scheme kImplicitMidpoint = {
     .velocity = [](const State& s, const VecX& q1, double h) -> VecX {
       return 2.0 / h * (q1 - s.q) - s.qdot;
     },
+    .load = load_in_middle,
+    .gives_driven_velocity = true,
 };
 
 /// M (q̇1 - q̇0) = -h/2 (∂V/∂q(q0) + ∂V/∂q(q1)), q1 - q0 = h (q̇0 + q̇1)/2: Newmark's method with β = 1/4,
@@ -84,6 +100,9 @@ constexpr Scheme kTrapezoidal = {
           return phi;
         },
     .velocity = kImplicitMidpoint.velocity,
+    .load = mean_load,
+    .weight = 2.0,
+    .gives_driven_velocity = true,
 };
 
 class ImplicitIntegrator : public Integrator {
@@ -96,7 +115,13 @@ public:
 
   StepReport step(const Model& model, State& state, double h) override {
     const Scheme& scheme = has_history(state, h) ? scheme_ : kBackwardEuler;
-    const IncrementalPotential phi = scheme.potential(model, state, h);
+    const Held& held = model.held(state.t + 0.5 * h);
+    IncrementalPotential phi = scheme.potential(model, state, h);
+    phi.pins = &held.pins();
+    const VecX load = scheme.load(model, state.t, h);
+    if (load.size() != 0)
+      phi.f = phi.f.size() != 0 ? VecX(phi.f + scheme.weight * load) : VecX(scheme.weight * load);
+    if (held.is_driven()) drive(scheme, held, state, h, phi);
     VecX q = first_guess(model, state, h);
     const NewtonReport newton = newton_.minimize(model, phi, q);
     StepReport report{newton.status, newton.iterations, newton.residual, h};
@@ -104,7 +129,9 @@ public:
     if (phi.a != 1.0 && !is_defined(model, q)) {
       report.status = StepStatus::not_finite;
     } else {
+      report.account(held, newton.balance / scheme.weight, load, q - state.q);
       VecX qdot1 = scheme.velocity(state, q, h);
+      if (scheme.gives_driven_velocity) held.set_velocities(state.t + h, qdot1);
       advance(state, std::move(q), std::move(qdot1), h);
     }
     return report;
@@ -122,6 +149,20 @@ private:
       t = before;
     }
     return true;
+  }
+
+  /// Tells Φ where the driven coordinates end.
+  static void drive(const Scheme& scheme, const Held& held, const State& state, double h,
+                    IncrementalPotential& phi) {
+    phi.q_held = state.q;
+    held.place(state.t + h, phi.q_held);
+    if (!scheme.gives_driven_velocity) return;
+    // m M (q1 - q̃) = weight M (q̇1 - q̇0)/h with m = 2 weight/h².
+    VecX qdot1 = state.qdot, q_predicted = phi.q_held;
+    held.set_velocities(state.t + h, qdot1);
+    q_predicted -= 0.5 * h * (qdot1 - state.qdot);
+    for (int dof = 0; dof < q_predicted.size(); ++dof)
+      if (held.pins().is_held(dof)) phi.q_predicted[dof] = q_predicted[dof];
   }
 
   /// A function of the state alone, so that a resumed run takes the same way: on along the velocity, as far

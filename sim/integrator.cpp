@@ -51,6 +51,12 @@ void check(const TimeSettings& time) {
 
 }  // namespace
 
+void StepReport::account(const Held& held, const VecX& balance, const VecX& load, const VecX& dq) {
+  pin_forces = held.forces(balance);
+  work_pins += held.pins().pinned_part(balance).dot(dq);
+  if (load.size() != 0) work_loads += load.dot(dq);
+}
+
 bool is_defined(const Model& model, const VecX& q) {
   return std::all_of(model.energies().begin(), model.energies().end(),
                      [&](const auto& term) { return std::isfinite(term->value(q)); });
@@ -86,6 +92,9 @@ bool advance(const Model& model, Integrator& integrator, const SolverSettings& s
     report.halvings = std::max(report.halvings, depth);
     report.residual = std::max(report.residual, step.residual);
     if (step.status == StepStatus::rounding_floor) report.hit_rounding_floor = true;
+    report.pin_forces = step.pin_forces;
+    report.work_pins += step.work_pins;
+    report.work_loads += step.work_loads;
     return true;
   }
   if (depth < solver.max_halvings)

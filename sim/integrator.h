@@ -28,6 +28,14 @@ struct StepReport {
   double residual = 0.0;  // |g_free| / |(M g)_free|, as the tolerance is measured
   double h = 0.0;         // step [s]
   int steps = 1;          // that an explicit scheme had to divide it into to stay stable
+  std::vector<Vec3> pin_forces =
+      {};                   // of each pin of the scene on the bodies, in the balance of the step [N]
+  double work_pins = 0.0;   // of these forces over the step [J]
+  double work_loads = 0.0;  // of the dead loads [J]
+
+  /// Takes the forces in, and adds the works, of a step by dq. `balance` is what the scheme's inertia, ∂V/∂q
+  /// and loads leave, 3n: the force of the pins where held. `load` is empty when there is none. [N]
+  void account(const Held&, const VecX& balance, const VecX& load, const VecX& dq);
 };
 
 /// An implicit (or explicit) scheme. Holds no state of the motion: only factors and buffers that are made
@@ -53,7 +61,10 @@ struct FrameReport {
   int newton_iterations = 0;  // sum over the steps
   double residual = 0.0;      // largest
   bool hit_rounding_floor = false;
-  std::string reason;  // one line, when status is not good
+  std::vector<Vec3> pin_forces = {};  // of each pin of the scene, in the last step [N]
+  double work_pins = 0.0;             // sum over the steps [J]
+  double work_loads = 0.0;            // likewise
+  std::string reason;                 // one line, when status is not good
 };
 
 /// Advances the state from its frame to the next, at exactly t = (frame + 1) / fps, by `substeps` steps; a

@@ -1,5 +1,6 @@
 #include "sim/linear_solver.h"
 
+#include <array>
 #include <atomic>
 #include <filesystem>
 #include <new>
@@ -92,6 +93,13 @@ struct LinearSolver::Implementation {
   cholmod_factor* analyze_in_place(int supernodal);
   void fill(const BlockHessian& H);
   FactorStatus factorize(const BlockHessian& H, cholmod_factor* factor);
+  /// Visits the free coordinates: place in the system, and among the 3n.
+  template <class Visit>
+  void each_coordinate(Visit&& visit) const {
+    for (const FreeVertex& free : order)
+      for (int k = 0; k < free.count; ++k)
+        visit(free.first + k, 3 * free.vertex + free.axes[static_cast<std::size_t>(k)]);
+  }
 
   int blas_threads;
   cholmod_common common{};
@@ -101,12 +109,19 @@ struct LinearSolver::Implementation {
   cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;  // kept between solves
 
   std::shared_ptr<const BlockPattern> pattern;
-  std::vector<int> order;  // free vertices in their order of elimination
-  std::vector<int> place;  // of each vertex in `order`, -1 when pinned
-  Columns lower;           // lower triangle of the system in that order: CHOLMOD factorizes it as it lies
+  /// A vertex that has free coordinates.
+  struct FreeVertex {
+    int vertex = 0;
+    int first = 0;                        // place of its first free coordinate in the system
+    int count = 0;                        // how many are free, 1 to 3
+    std::array<int, 3> axes = {0, 1, 2};  // which, ascending
+  };
+  std::vector<FreeVertex> order;  // in their order of elimination
+  std::vector<int> place;         // of each vertex in `order`, -1 when pinned
+  Columns lower;  // lower triangle of the system in that order: CHOLMOD factorizes it as it lies
   struct BlockPlace {
-    int column = -1;  // place of the block's column vertex; -1: not in the system
-    int nth = 0;      // how many blocks of that column come before
+    int row = -1, column = -1;  // places of its vertices in `order`, row >= column; -1: not in the system
+    int before = 0;             // scalar rows of the column's first coordinate that come before it
     bool transposed = false;
   };
   std::vector<BlockPlace> block_places;
@@ -140,7 +155,10 @@ void LinearSolver::Implementation::order_vertices(const Pins& pins) {
   for (std::size_t p = 0; p < A.nrow; ++p) {
     const int vertex = pins.free_vertices()[static_cast<std::size_t>(permutation[p])];
     place[static_cast<std::size_t>(vertex)] = static_cast<int>(p);
-    order.push_back(vertex);
+    FreeVertex free{vertex, order.empty() ? 0 : order.back().first + order.back().count};
+    for (int k = 0; k < 3; ++k)
+      if (!pins.is_held(3 * vertex + k)) free.axes[static_cast<std::size_t>(free.count++)] = k;
+    order.push_back(free);
   }
   cholmod_l_free_factor(&factor, &common);
 }
@@ -166,13 +184,18 @@ void LinearSolver::Implementation::lay_out(const Pins& pins) {
   for (std::size_t c = 0; c < columns.size(); ++c) {
     std::vector<Entry>& entries = columns[c];
     std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.row < b.row; });
-    for (std::size_t n = 0; n < entries.size(); ++n)
-      block_places[static_cast<std::size_t>(entries[n].block)] = {static_cast<int>(c), static_cast<int>(n),
-                                                                  entries[n].transposed};
-    for (int k = 0; k < 3; ++k) {
-      for (const Entry& entry : entries)
-        for (int r = entry.row == static_cast<int>(c) ? k : 0; r < 3; ++r)
-          lower.rows.push_back(3 * entry.row + r);
+    int before = 0;
+    for (const Entry& entry : entries) {
+      block_places[static_cast<std::size_t>(entry.block)] = {entry.row, static_cast<int>(c), before,
+                                                             entry.transposed};
+      before += order[static_cast<std::size_t>(entry.row)].count;
+    }
+    for (int k = 0; k < order[c].count; ++k) {
+      for (const Entry& entry : entries) {
+        const FreeVertex& row = order[static_cast<std::size_t>(entry.row)];
+        for (int r = entry.row == static_cast<int>(c) ? k : 0; r < row.count; ++r)
+          lower.rows.push_back(row.first + r);
+      }
       lower.starts.push_back(static_cast<SuiteSparse_long>(lower.rows.size()));
     }
   }
@@ -197,13 +220,17 @@ void LinearSolver::Implementation::fill(const BlockHessian& H) {
       const BlockPlace& where = block_places[static_cast<std::size_t>(b)];
       if (where.column < 0) continue;
       const auto block = H.block(b);
-      for (int k = 0; k < 3; ++k) {
-        double* column = lower.values.data() + lower.starts[static_cast<std::size_t>(3 * where.column + k)];
-        if (where.nth == 0) {  // the diagonal block: its lower triangle
-          for (int r = k; r < 3; ++r) column[r - k] = block(k, r);
-        } else {
-          column += 3 * where.nth - k;
-          for (int r = 0; r < 3; ++r) column[r] = where.transposed ? block(k, r) : block(r, k);
+      const FreeVertex& row = order[static_cast<std::size_t>(where.row)];
+      const FreeVertex& column = order[static_cast<std::size_t>(where.column)];
+      for (int k = 0; k < column.count; ++k) {
+        // Each column begins at its diagonal, so that the k-th has k rows less.
+        double* values =
+            lower.values.data() + lower.starts[static_cast<std::size_t>(column.first + k)] + where.before - k;
+        const int axis = column.axes[static_cast<std::size_t>(k)];
+        for (int r = where.row == where.column ? k : 0; r < row.count; ++r) {
+          const int row_axis = row.axes[static_cast<std::size_t>(r)];
+          values[r] =
+              where.transposed || where.row == where.column ? block(axis, row_axis) : block(row_axis, axis);
         }
       }
     }
@@ -263,8 +290,7 @@ void LinearSolver::solve(const VecX& b, VecX& x) {
   if (s.order.empty()) return;
   if (s.solving == nullptr) throw std::logic_error("LinearSolver::solve without a factor");
   const Threads threads(s.blas_threads);
-  for (std::size_t p = 0; p < s.order.size(); ++p)
-    s.rhs.segment<3>(3 * static_cast<int>(p)) = b.segment<3>(3 * s.order[p]);
+  s.each_coordinate([&](int place, int dof) { s.rhs[place] = b[dof]; });
   cholmod_dense rhs{};
   rhs.nrow = rhs.nzmax = rhs.d = static_cast<std::size_t>(s.rhs.size());
   rhs.ncol = 1;
@@ -274,8 +300,7 @@ void LinearSolver::solve(const VecX& b, VecX& x) {
   if (!cholmod_l_solve2(CHOLMOD_A, s.solving, &rhs, nullptr, &s.x, nullptr, &s.y, &s.e, &s.common))
     throw std::bad_alloc();
   const Eigen::Map<const VecX> solution(static_cast<const double*>(s.x->x), s.rhs.size());
-  for (std::size_t p = 0; p < s.order.size(); ++p)
-    x.segment<3>(3 * s.order[p]) = solution.segment<3>(3 * static_cast<int>(p));
+  s.each_coordinate([&](int place, int dof) { x[dof] = solution[place]; });
 }
 
 double LinearSolver::factor_nonzeros() const { return implementation_->nonzeros; }

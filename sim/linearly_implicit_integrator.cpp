@@ -12,38 +12,50 @@ namespace {
 constexpr int kMaxRefinements = 5;
 
 /// (M + h² K) q̇1 = M q̇0 - h ∂V/∂q, q1 = q0 + h q̇1, with K = ∂²V/∂q² and ∂V/∂q at q0: the first Newton
-/// iteration of backward Euler from q0 on. K is exact, never projected. (lecture, "Linearly implicit Euler")
+/// iteration of backward Euler from q0 on; loads at the end of the step. K is exact, never projected.
+/// (lecture, "Linearly implicit Euler")
 class LinearlyImplicitEuler : public Integrator {
 public:
   LinearlyImplicitEuler(const SolverSettings& settings, const Model& model)
       : tolerance_((check(settings), settings.tolerance)),
         linear_solver_(settings.blas_threads),
-        A_(model.pattern()) {
-    linear_solver_.analyze(model.pattern(), model.pins());
-  }
+        A_(model.pattern()) {}
 
   std::string_view name() const override { return "linearly_implicit_euler"; }
   int history_levels() const override { return 0; }
 
   StepReport step(const Model& model, State& state, double h) override {
-    const VecX b = assemble(model, state, h);
+    const Held& held = model.held(state.t + 0.5 * h);
+    hold(model, held.pins());
+    const VecX load = model.load_force(state.t + h);
+    const VecX b = assemble(model, state, load, h);
     if (!b.allFinite()) return {StepStatus::not_finite, 0, 0.0, h};
     if (!factorize()) return {StepStatus::not_positive, 1, 0.0, h};
-    VecX qdot1;
+    VecX q1 = state.q;
+    if (held.is_driven()) held.place(state.t + h, q1);
+    VecX qdot1 = (q1 - state.q) / h;  // where driven; elsewhere zero
     StepReport report = solve(model, b, h, qdot1);
     if (!is_good(report.status)) return report;
-    const VecX q1 = state.q + h * qdot1;
+    q1 = state.q + h * qdot1;
+    if (held.is_driven()) held.place(state.t + h, q1);  // to the bit
     if (!is_defined(model, q1)) report.status = StepStatus::not_finite;
     if (!is_good(report.status)) return report;
-    state.q = q1;
+    report.account(held, (A_.times(qdot1) - b) / h, load, q1 - state.q);
+    state.q = std::move(q1);
     state.qdot = std::move(qdot1);
     state.t += h;
     return report;
   }
 
 private:
-  /// Makes A = M + h² K and returns M q̇0 - h ∂V/∂q. [kg m/s]
-  VecX assemble(const Model& model, const State& state, double h) {
+  void hold(const Model& model, const Pins& pins) {
+    if (pins_ == &pins) return;
+    linear_solver_.analyze(model.pattern(), pins);
+    pins_ = &pins;
+  }
+
+  /// Makes A = M + h² K and returns M q̇0 - h ∂V/∂q + h f. [kg m/s]
+  VecX assemble(const Model& model, const State& state, const VecX& load, double h) {
     VecX g = VecX::Zero(state.q.size());
     A_.set_zero();
     for (const auto& term : model.energies()) {
@@ -51,6 +63,7 @@ private:
       term->add_hessian(state.q, h * h, HessianKind::exact, A_);
     }
     model.add_mass(1.0, A_);
+    if (load.size() != 0) g -= load;
     return model.mass_times(state.qdot) - h * g;
   }
 
@@ -60,14 +73,20 @@ private:
     return status == FactorStatus::ok;
   }
 
-  /// Solves A q̇1 = b and corrects q̇1 by its residual, as a force, while that is above the tolerance and
-  /// falls.
+  /// Solves A q̇1 = b, with q̇1 as it comes where held, and corrects q̇1 by its residual, as a force, while that
+  /// is above the tolerance and falls.
   StepReport solve(const Model& model, const VecX& b, double h, VecX& qdot1) {
-    double reference = model.pins().free_norm(model.gravity_force());
-    if (reference == 0.0) reference = model.pins().free_norm(b) / h;
-    const auto force_norm = [&](const VecX& r) { return model.pins().free_norm(r) / h; };
-    linear_solver_.solve(b, qdot1);
-    VecX r = b - A_.times(qdot1), correction;
+    double reference = pins_->free_norm(model.gravity_force());
+    if (reference == 0.0) reference = pins_->free_norm(b) / h;
+    const auto force_norm = [&](const VecX& r) { return pins_->free_norm(r) / h; };
+    VecX correction;
+    if (qdot1.isZero(0.0)) {
+      linear_solver_.solve(b, qdot1);
+    } else {
+      linear_solver_.solve(b - A_.times(qdot1), correction);
+      qdot1 += correction;
+    }
+    VecX r = b - A_.times(qdot1);
     double norm = force_norm(r);
     for (int i = 0; i < kMaxRefinements && norm > tolerance_ * reference; ++i) {
       linear_solver_.solve(r, correction);
@@ -90,6 +109,7 @@ private:
 
   double tolerance_;
   LinearSolver linear_solver_;
+  const Pins* pins_ = nullptr;  // that it is analyzed for
   BlockHessian A_;
 };
 

@@ -1,7 +1,11 @@
 #include "sim/model.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
+
+#include <Eigen/Geometry>
 
 #include "sim/compensated_sum.h"
 #include "sim/error.h"
@@ -10,6 +14,7 @@
 #include "sim/mass.h"
 #include "sim/materials/table.h"
 #include "sim/placement.h"
+#include "sim/springs.h"
 #include "sim/text.h"
 
 namespace lagomorph::sim {
@@ -29,6 +34,7 @@ void check_settings(const BodySettings& body, const std::string& where) {
   require(body.rotate.allFinite(), where + ": rotate must be finite");
   require(body.translate.allFinite(), where + ": translate must be finite");
   require(body.velocity.allFinite(), where + ": velocity must be finite");
+  require(body.spin.allFinite(), where + ": spin must be finite");
   require(body.mass == "consistent" || body.mass == "lumped",
           where + ": unknown mass '" + body.mass + "'; valid ones are consistent, lumped");
 }
@@ -56,12 +62,56 @@ void append(const TetMesh& body, const std::string& name, TetMesh& all) {
   all.bodies.push_back({name, vertices, tets});
 }
 
-/// Indices of the body's pinned vertices in the mesh of all.
-void append_pins(const TetMesh& body, const BodySettings& settings, const std::string& where,
-                 int first_vertex, std::vector<int>& pinned) {
-  for (std::size_t i = 0; i < settings.pin.size(); ++i)
-    for (const int v : select_vertices(body.X, settings.pin[i], where + ": pin " + std::to_string(i)))
-      pinned.push_back(first_vertex + v);
+Axes axes_of(const PinSettings& pin, const std::string& where) {
+  Axes axes = {false, false, false};
+  for (const std::string& axis : pin.axes) {
+    require(axis == "x" || axis == "y" || axis == "z",
+            where + ": unknown axis '" + axis + "'; valid ones are x, y, z");
+    axes[static_cast<std::size_t>(axis[0] - 'x')] = true;
+  }
+  require(!pin.axes.empty(), where + ": axes is empty; give some of x, y, z");
+  return axes;
+}
+
+/// What the pins of a placed body hold, and their names.
+void append_holds(const BodyInput& body, const std::string& where, int first_vertex, std::vector<Hold>& holds,
+                  std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < body.settings.pin.size(); ++i) {
+    const PinSettings& pin = body.settings.pin[i];
+    const std::string name = where + ": pin " + std::to_string(i);
+    Hold hold;
+    hold.vertices = select_vertices(body.mesh.X, pin, name);
+    hold.axes = axes_of(pin, name);
+    const Recording path = i < body.recordings.size() ? body.recordings[i] : Recording{};
+    if (!pin.key.empty() || path.samples > 0) {
+      Points X(static_cast<Eigen::Index>(hold.vertices.size()), 3);
+      for (std::size_t v = 0; v < hold.vertices.size(); ++v)
+        X.row(static_cast<Eigen::Index>(v)) = body.mesh.X.row(hold.vertices[v]);
+      hold.motion = std::make_shared<const PinMotion>(pin, path, X, name);
+    }
+    if (pin.release) {
+      require(*pin.release > 0.0, name + ": release = " + short_number(*pin.release) + " must be > 0 s");
+      hold.release = *pin.release;
+    }
+    for (int& v : hold.vertices) v += first_vertex;
+    holds.push_back(std::move(hold));
+    names.push_back(name);
+  }
+}
+
+/// velocity + spin × (X - centre of mass) + those of the file, of the body's vertices.
+Points start_velocities(const BodySettings& settings, const Points& X, const Points& of_file,
+                        const Eigen::VectorXd& mass, const std::string& where) {
+  require(of_file.size() == 0 || (of_file.rows() == X.rows() && of_file.allFinite()),
+          where + ": velocities must be finite and one for each of the " + std::to_string(X.rows()) +
+              " vertices");
+  const Vec3 center = X.transpose() * mass / mass.sum();
+  Points v = settings.velocity.transpose().replicate(X.rows(), 1);
+  if (!settings.spin.isZero(0.0))
+    for (Eigen::Index i = 0; i < X.rows(); ++i)
+      v.row(i) += settings.spin.cross(Vec3(X.row(i).transpose() - center)).transpose();
+  if (of_file.size() != 0) v += of_file;
+  return v;
 }
 
 }  // namespace
@@ -71,7 +121,9 @@ Model::Model(std::vector<BodyInput> bodies, const Vec3& gravity) {
   require(gravity.allFinite(), "gravity must be finite");
   std::vector<BodyMass> masses;
   std::vector<ElasticBody> elastic;
-  std::vector<int> pinned;
+  std::vector<Hold> holds;
+  std::vector<std::string> names_of_holds;
+  std::vector<Springs::Spring> springs;
   std::set<std::string> names;
   mesh_.X.resize(0, 3);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -84,25 +136,51 @@ Model::Model(std::vector<BodyInput> bodies, const Vec3& gravity) {
     check_settings(settings, where);
     place(body.X, settings);
     check_volumes(body, where);
-    append_pins(body, settings, where, mesh_.vertex_count(), pinned);
+    append_holds(bodies[b], where, mesh_.vertex_count(), holds, names_of_holds);
+    append_springs(settings, body.X, mesh_.vertex_count(), where, springs);
     append(body, name, mesh_);
     masses.push_back({settings.density, settings.mass == "lumped"});
     elastic.push_back({mesh_.bodies.back().tets, settings.material, where + ": material"});
   }
-  pins_ = Pins(mesh_.vertex_count(), pinned);
+  hold(holds, names_of_holds);
   pattern_ = std::make_shared<const BlockPattern>(mesh_.vertex_count(), mesh_.tets);
   mass_blocks_ = assemble_mass(mesh_, masses, *pattern_);
   vertex_mass_ = vertex_mass_matrix(mass_blocks_, *pattern_);
   f_g_ = mass_times(gravity.replicate(mesh_.vertex_count(), 1));
   energies_ = make_elasticity(mesh_, elastic, pattern_);
+  if (!springs.empty()) energies_.push_back(std::make_unique<Springs>(std::move(springs)));
   energies_.push_back(std::make_unique<Gravity>(f_g_));
   gravity_ = energies_.back().get();
   qdot0_.resize(3 * mesh_.vertex_count());
+  const Eigen::VectorXd mass = vertex_mass_ * Eigen::VectorXd::Ones(mesh_.vertex_count());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const Range& v = mesh_.bodies[b].vertices;
-    qdot0_.segment(3 * v.begin, 3 * v.size()) = bodies[b].settings.velocity.replicate(v.size(), 1);
+    const Body& body = mesh_.bodies[b];
+    const int first = body.vertices.begin, count = body.vertices.size();
+    const std::string where = "body '" + body.name + "'";
+    const Points X = mesh_.X.middleRows(first, count);
+    const Points v =
+        start_velocities(bodies[b].settings, X, bodies[b].velocities, mass.segment(first, count), where);
+    qdot0_.segment(3 * first, 3 * count) = Eigen::Map<const VecX>(v.data(), v.size());
+    loads_.append(mesh_, body, bodies[b].settings, where);
   }
-  pins_.clear_pinned(qdot0_);
+  pins().clear_pinned(qdot0_);
+  held_.front().set_velocities(0.0, qdot0_);
+}
+
+/// One Held for each span of time between releases.
+void Model::hold(const std::vector<Hold>& holds, const std::vector<std::string>& names) {
+  check_holds(mesh_.vertex_count(), holds, names);
+  std::set<double> releases;
+  for (const Hold& hold : holds)
+    if (std::isfinite(hold.release)) releases.insert(hold.release);
+  held_.emplace_back(mesh_.vertex_count(), holds, 0.0);
+  for (const double t : releases) held_.emplace_back(mesh_.vertex_count(), holds, t);
+  releases_.assign(releases.begin(), releases.end());
+}
+
+const Held& Model::held(double t) const {
+  const auto passed = std::upper_bound(releases_.begin(), releases_.end(), t) - releases_.begin();
+  return held_[static_cast<std::size_t>(passed)];
 }
 
 SparseMatrix Model::mass() const {
@@ -148,6 +226,22 @@ Energies Model::energies_of(const State& state) const {
 Vec3 Model::momentum(const State& state) const {
   const VecX Mv = mass_times(state.qdot);
   return as_points(Mv).colwise().sum().transpose();
+}
+
+Vec3 Model::angular_momentum(const State& state) const {
+  const VecX Mv = mass_times(state.qdot);
+  Vec3 L = Vec3::Zero();
+  for (Eigen::Index i = 0; i < Mv.size(); i += 3)
+    L += Vec3(state.q.segment<3>(i)).cross(Vec3(Mv.segment<3>(i)));
+  return L;
+}
+
+double Model::min_J(const VecX& q) const {
+  double least = std::numeric_limits<double>::infinity();
+  const VecX X = Eigen::Map<const VecX>(mesh_.X.data(), mesh_.X.size());
+  for (const Tet& tet : mesh_.tets)
+    least = std::min(least, tet_volume(gather_corners(q, tet)) / tet_volume(gather_corners(X, tet)));
+  return least;
 }
 
 double Model::total_mass() const {

@@ -29,6 +29,7 @@ constexpr double kArmijo = 1e-4;  // part of the predicted decrease that a step 
 constexpr double kLeastClamping = 1.0 / 64.0;
 constexpr int kMaxBacktracks = 40;      // halvings of a step while the energy tells steps apart
 constexpr int kMaxBlindBacktracks = 8;  // and where only the residual does
+constexpr int kMaxCarries = 8;          // pieces in which the held coordinates may reach their places
 
 /// Where V is evaluated.
 VecX position_of_V(const IncrementalPotential& phi, const VecX& q) {
@@ -38,11 +39,20 @@ VecX position_of_V(const IncrementalPotential& phi, const VecX& q) {
   return x;
 }
 
+/// Part of the direction that keeps V defined: it moves by a · direction when q moves by it.
+double max_step(const Model& model, const IncrementalPotential& phi, const VecX& q, const VecX& direction) {
+  double step = 1.0;
+  for (const auto& term : model.energies())
+    step = std::min(step, term->max_step(position_of_V(phi, q), phi.a * direction));
+  return step;
+}
+
 }  // namespace
 
 /// Φ and its gradient at a q.
 struct Newton::Point {
-  VecX q, g;
+  VecX q, g;                 // g is zero where held
+  VecX balance;              // ∂Φ/∂q with what the pins exert [N]
   double value = 0.0;        // Φ [J]
   double value_scale = 0.0;  // size of the numbers that it is summed from [J]
   double norm = 0.0;         // |g_free| [N]
@@ -55,10 +65,11 @@ struct Newton::Point {
 Newton::Newton(const Model& model, const SolverSettings& settings)
     : settings_((check(settings), settings)),
       linear_solver_(settings.blas_threads),
+      pins_(&model.pins()),
       H_(model.pattern()),
       exact_(model.pattern()),
       projected_(model.pattern()) {
-  linear_solver_.analyze(model.pattern(), model.pins());
+  linear_solver_.analyze(model.pattern(), pins());
 }
 
 Newton::Point Newton::evaluate(const Model& model, const IncrementalPotential& phi, VecX q) const {
@@ -83,13 +94,13 @@ Newton::Point Newton::evaluate(const Model& model, const IncrementalPotential& p
     inertia = phi.m * model.mass_times(dq);
     p.value += 0.5 * dq.dot(inertia);
   }
-  p.g = inertia + forces;
-  model.pins().clear_pinned(p.g);
+  p.balance = inertia + forces;
+  p.g = p.balance;
+  pins().clear_pinned(p.g);
   p.norm = p.g.norm();
-  p.reference = model.pins().free_norm(model.gravity_force());
+  p.reference = pins().free_norm(model.gravity_force());
   // Without gravity: the larger of the parts that must cancel.
-  if (p.reference == 0.0)
-    p.reference = std::max(model.pins().free_norm(inertia), model.pins().free_norm(forces));
+  if (p.reference == 0.0) p.reference = std::max(pins().free_norm(inertia), pins().free_norm(forces));
   return p;
 }
 
@@ -131,11 +142,7 @@ bool Newton::search_line(const Model& model, const IncrementalPotential& phi, co
   if (!(slope < 0.0)) return false;
   // A decrease that drowns in the rounding of the energy is told by the residual instead.
   const bool blind = -slope < 10.0 * kEpsilon * point.value_scale;
-  double step = 1.0;
-  for (const auto& term : model.energies()) {
-    // V moves by a · direction when q moves by it.
-    step = std::min(step, term->max_step(position_of_V(phi, point.q), phi.a * direction));
-  }
+  double step = max_step(model, phi, point.q, direction);
   const int backtracks = blind ? kMaxBlindBacktracks : kMaxBacktracks;
   for (int k = 0; k <= backtracks; ++k, step *= 0.5) {
     Point next = evaluate(model, phi, point.q + step * direction);
@@ -150,39 +157,73 @@ bool Newton::search_line(const Model& model, const IncrementalPotential& phi, co
 }
 
 /// What the rounding of q alone leaves of the residual. [N]
-double Newton::rounding_floor(const Model& model, const VecX& q) const {
-  return model.pins().free_norm(H_.rounding_of_times(q));
+double Newton::rounding_floor(const VecX& q) const { return pins().free_norm(H_.rounding_of_times(q)); }
+
+/// Goes along a direction in which the held coordinates reach q_held, as far as V is defined; Φ need not
+/// fall. Returns whether it got anywhere.
+bool Newton::carry(const Model& model, const IncrementalPotential& phi, const VecX& direction,
+                   Point& point) const {
+  double step = max_step(model, phi, point.q, direction);
+  for (int k = 0; k <= kMaxBlindBacktracks; ++k, step *= 0.5) {
+    VecX q = point.q + step * direction;
+    if (step == 1.0)  // to the bit, whatever the sum rounds to
+      for (int dof = 0; dof < q.size(); ++dof)
+        if (pins().is_held(dof)) q[dof] = phi.q_held[dof];
+    Point next = evaluate(model, phi, std::move(q));
+    if (!next.is_finite()) continue;
+    point = std::move(next);
+    return true;
+  }
+  return false;
 }
 
 NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& phi, VecX& q) {
+  const Pins* held = phi.pins != nullptr ? phi.pins : &model.pins();
+  if (held != pins_) linear_solver_.analyze(model.pattern(), *held);
+  pins_ = held;
   NewtonReport report;
   Point point = evaluate(model, phi, std::move(q));
   const auto end = [&](StepStatus status) {
     report.status = status;
     report.residual = point.residual();
     q = std::move(point.q);
+    report.balance = std::move(point.balance);
     return report;
   };
   const auto end_stagnated = [&] {
-    const bool at_floor = point.norm <= kNearRoundingFloor * rounding_floor(model, point.q);
+    const bool at_floor = point.norm <= kNearRoundingFloor * rounding_floor(point.q);
     return end(at_floor ? StepStatus::rounding_floor : StepStatus::not_converged);
   };
-  VecX direction;
+  VecX direction, lift;  // what the held coordinates have still to go
   double clamping = 0.0;
+  int carries = 0;
   for (;;) {
     if (!point.is_finite()) return end(StepStatus::not_finite);
-    if (point.norm <= settings_.tolerance * point.reference) return end(StepStatus::converged);
-    if (report.iterations == settings_.max_iterations) return end_stagnated();
+    if (phi.q_held.size() != 0) lift = pins().pinned_part(phi.q_held - point.q);
+    const bool arrived = lift.size() == 0 || lift.isZero(0.0);
+    if (arrived && point.norm <= settings_.tolerance * point.reference) return end(StepStatus::converged);
+    if (report.iterations == settings_.max_iterations)
+      return arrived ? end_stagnated() : end(StepStatus::not_converged);
 
     if (factorize(model, phi, point.q, clamping) != FactorStatus::ok) return end(StepStatus::not_positive);
-    linear_solver_.solve(-point.g, direction);
+    if (arrived) {
+      linear_solver_.solve(-point.g, direction);
+    } else {
+      linear_solver_.solve(-point.g - H_.times(lift), direction);
+      direction += lift;
+    }
     ++report.iterations;
     if (!direction.allFinite()) return end(StepStatus::not_finite);
+    if (!arrived) {
+      if (++carries > kMaxCarries || !carry(model, phi, direction, point))
+        return end(StepStatus::not_converged);
+      continue;
+    }
 
     const double norm_before = point.norm;
     if (!search_line(model, phi, direction, point)) return end_stagnated();
     const bool crawls = point.norm > 0.5 * norm_before && point.norm > settings_.tolerance * point.reference;
-    if (crawls && point.norm <= kNearRoundingFloor * rounding_floor(model, point.q))
+    if (crawls && point.norm <= kNearRoundingFloor * rounding_floor(point.q))
       return end(StepStatus::rounding_floor);
   }
 }

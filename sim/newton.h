@@ -17,6 +17,8 @@ struct IncrementalPotential {
   double a = 1.0;  // where V is evaluated: the end of the step for a = 1, its middle for a = 1/2 and b = q/2
   VecX b;          // 3n [m]; empty: zero
   VecX f;          // constant force, 3n [N]; empty: zero
+  const Pins* pins = nullptr;  // what is held; none: the model's at the start. Must outlive the Newton
+  VecX q_held;                 // where the held coordinates end, 3n [m]; empty: where they are
 };
 
 /// Within this many rounding floors, stagnation is convergence.
@@ -29,14 +31,16 @@ struct NewtonReport {
   StepStatus status = StepStatus::converged;
   int iterations = 0;     // linear systems solved
   double residual = 0.0;  // |g_free| over the reference
+  VecX balance;  // ∂Φ/∂q, 3n: zero but for the residual where free, the force of the pins where held [N]
 };
 
 /// Newton's method with a line search. Keeps the symbolic factorization and buffers of one model's topology.
 class Newton {
 public:
   Newton(const Model&, const SolverSettings&);
-  /// Minimizes Φ over the free vertices from q on; the pinned ones stay where they are in q. On a bad status
-  /// q is where it gave up.
+  /// Minimizes Φ over the free coordinates from q on. The held ones move to q_held, and the free ones with
+  /// them by Newton's own direction for held ones that move, in as many pieces as keep V defined. On a bad
+  /// status q is where it gave up.
   NewtonReport minimize(const Model&, const IncrementalPotential&, VecX& q);
 
 private:
@@ -45,11 +49,14 @@ private:
   void assemble(const Model&, const IncrementalPotential&, const VecX& q, HessianKind, BlockHessian& H) const;
   FactorStatus factorize(const Model&, const IncrementalPotential&, const VecX& q, double& clamping);
   bool search_line(const Model&, const IncrementalPotential&, const VecX& direction, Point& point) const;
-  double rounding_floor(const Model&, const VecX& q) const;
+  bool carry(const Model&, const IncrementalPotential&, const VecX& direction, Point& point) const;
+  double rounding_floor(const VecX& q) const;
+  const Pins& pins() const { return *pins_; }
 
   SolverSettings settings_;
   LinearSolver linear_solver_;
-  BlockHessian H_;  // as it was factorized last
+  const Pins* pins_;  // that it is analyzed for
+  BlockHessian H_;    // as it was factorized last
   BlockHessian exact_, projected_;
 };
 

@@ -8,13 +8,31 @@
 
 namespace lagomorph::sim {
 
+namespace {
+
+std::vector<char> held_in_all_axes(int vertex_count, const std::vector<int>& vertices) {
+  std::vector<char> held(3 * static_cast<std::size_t>(vertex_count), 0);
+  for (const int v : vertices)
+    for (std::size_t k = 0; k < 3; ++k) held[3 * static_cast<std::size_t>(v) + k] = 1;
+  return held;
+}
+
+}  // namespace
+
 Pins::Pins(int vertex_count, const std::vector<int>& vertices)
-    : vertices_(vertices), free_index_(static_cast<std::size_t>(vertex_count), 0) {
-  std::sort(vertices_.begin(), vertices_.end());
-  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
-  for (const int v : vertices_) free_index_[static_cast<std::size_t>(v)] = -1;
-  for (int v = 0; v < vertex_count; ++v) {
-    if (is_pinned(v)) continue;
+    : Pins(held_in_all_axes(vertex_count, vertices)) {}
+
+Pins::Pins(const std::vector<char>& is_held) : held_(is_held), free_index_(is_held.size() / 3, -1) {
+  for (int v = 0; v < vertex_count(); ++v) {
+    int held = 0;
+    for (int dof = 3 * v; dof < 3 * v + 3; ++dof) {
+      if (this->is_held(dof))
+        ++held;
+      else
+        free_.push_back(dof);
+    }
+    if (held > 0) vertices_.push_back(v);
+    if (held == 3) continue;
     free_index_[static_cast<std::size_t>(v)] = static_cast<int>(free_vertices_.size());
     free_vertices_.push_back(v);
   }
@@ -22,29 +40,35 @@ Pins::Pins(int vertex_count, const std::vector<int>& vertices)
 
 VecX Pins::project(const VecX& full) const {
   VecX free(free_dofs());
-  for (std::size_t i = 0; i < free_vertices_.size(); ++i)
-    free.segment<3>(3 * static_cast<int>(i)) = full.segment<3>(3 * free_vertices_[i]);
+  for (std::size_t i = 0; i < free_.size(); ++i) free[static_cast<int>(i)] = full[free_[i]];
   return free;
 }
 
 VecX Pins::expand(const VecX& free) const {
   VecX full = VecX::Zero(3 * vertex_count());
-  for (std::size_t i = 0; i < free_vertices_.size(); ++i)
-    full.segment<3>(3 * free_vertices_[i]) = free.segment<3>(3 * static_cast<int>(i));
+  for (std::size_t i = 0; i < free_.size(); ++i) full[free_[i]] = free[static_cast<int>(i)];
   return full;
 }
 
 void Pins::clear_pinned(VecX& full) const {
-  for (const int v : vertices_) full.segment<3>(3 * v).setZero();
+  for (const int v : vertices_)
+    for (int dof = 3 * v; dof < 3 * v + 3; ++dof)
+      if (is_held(dof)) full[dof] = 0.0;
+}
+
+VecX Pins::pinned_part(const VecX& full) const {
+  VecX part = VecX::Zero(full.size());
+  for (const int v : vertices_)
+    for (int dof = 3 * v; dof < 3 * v + 3; ++dof)
+      if (is_held(dof)) part[dof] = full[dof];
+  return part;
 }
 
 double Pins::free_norm(const VecX& full) const { return project(full).norm(); }
 
 SparseMatrix Pins::matrix() const {
   SparseMatrix P(free_dofs(), 3 * vertex_count());
-  P.reserve(Eigen::VectorXi::Constant(P.cols(), 1));
-  for (std::size_t i = 0; i < free_vertices_.size(); ++i)
-    for (int k = 0; k < 3; ++k) P.insert(3 * static_cast<int>(i) + k, 3 * free_vertices_[i] + k) = 1.0;
+  for (std::size_t i = 0; i < free_.size(); ++i) P.insert(static_cast<int>(i), free_[i]) = 1.0;
   P.makeCompressed();
   return P;
 }
@@ -123,22 +147,22 @@ void check_fraction(const Selection& s, const char* name, double fraction) {
 
 }  // namespace
 
-std::vector<int> select_vertices(const Points& X, const PinSettings& pin, const std::string& where) {
-  if (pin.vertices.empty() && !pin.box && !pin.sphere && !pin.plane && !pin.top && !pin.bottom)
+std::vector<int> select_vertices(const Points& X, const Selector& by, const std::string& where) {
+  if (by.is_empty())
     throw InputError(where + ": selects nothing; give vertices, box, sphere, plane, top or bottom");
   Selection s(X, where);
-  take_vertices(s, pin.vertices);
-  if (pin.box) take_box(s, *pin.box);
-  if (pin.sphere) take_sphere(s, *pin.sphere);
-  if (pin.plane) take_plane(s, *pin.plane);
-  if (pin.top) {
-    check_fraction(s, "top", *pin.top);
-    const double y = s.max.y() - *pin.top * (s.max.y() - s.min.y()) - s.slack;
+  take_vertices(s, by.vertices);
+  if (by.box) take_box(s, *by.box);
+  if (by.sphere) take_sphere(s, *by.sphere);
+  if (by.plane) take_plane(s, *by.plane);
+  if (by.top) {
+    check_fraction(s, "top", *by.top);
+    const double y = s.max.y() - *by.top * (s.max.y() - s.min.y()) - s.slack;
     s.take("top", [&](const Vec3& x) { return x.y() >= y; });
   }
-  if (pin.bottom) {
-    check_fraction(s, "bottom", *pin.bottom);
-    const double y = s.min.y() + *pin.bottom * (s.max.y() - s.min.y()) + s.slack;
+  if (by.bottom) {
+    check_fraction(s, "bottom", *by.bottom);
+    const double y = s.min.y() + *by.bottom * (s.max.y() - s.min.y()) + s.slack;
     s.take("bottom", [&](const Vec3& x) { return x.y() <= y; });
   }
   std::vector<int> selected;

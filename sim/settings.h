@@ -37,14 +37,52 @@ struct PlaneSelector {
   Vec3 normal;  // need not be of unit length
 };
 
-/// Vertices held where they are at the start. More than one selector in one pin selects the union.
-struct PinSettings {
+/// Vertices of a body: the union of what is given.
+struct Selector {
   std::vector<int> vertices;             // 0-based, in file order, per body
   std::optional<BoxSelector> box;        // of rest positions, after the body is placed
   std::optional<SphereSelector> sphere;  // likewise
   std::optional<PlaneSelector> plane;    // likewise
   std::optional<double> top;             // upper fraction of the rest bounding box along +y, in (0, 1]
   std::optional<double> bottom;          // lower fraction, in (0, 1]
+
+  bool is_empty() const { return vertices.empty() && !box && !sphere && !plane && !top && !bottom; }
+};
+
+/// Where a pin's vertices are at a time: x = center + translate + R(rotate) scale (X - center).
+struct PinKey {
+  double time = 0.0;              // [s], >= 0
+  Vec3 translate = Vec3::Zero();  // [m]
+  Vec3 rotate = Vec3::Zero();     // Euler angles about the fixed x, then y, then z axis [degrees]
+  double scale = 1.0;             // > 0
+};
+
+/// Vertices held where they are at the start, or driven by keys or a recorded path.
+struct PinSettings : Selector {
+  std::vector<std::string> axes = {"x", "y", "z"};  // that are held; the others are free
+  std::string interpolation = "smooth";             // "smooth": once differentiable; "linear"
+  std::optional<Vec3> center;                       // of keys; none: the mean of the vertices at rest [m]
+  std::string path;                // file of the recorded path; whoever reads it fills in a Recording
+  std::optional<double> path_fps;  // samples a second of it [1/s], > 0
+  std::optional<double> release;   // from then on the vertices are free [s], > 0
+  std::vector<PinKey> key;         // times ascend; before the first and after the last they rest
+};
+
+/// A spring from each selected vertex to a point: k/2 (|x - p| - rest_length)².
+struct SpringSettings : Selector {
+  double stiffness = 0.0;    // of each vertex's own spring [N/m], > 0
+  std::optional<Vec3> to;    // p of all [m]; none: each vertex's rest position
+  double rest_length = 0.0;  // [m], >= 0
+};
+
+/// Forces on the selected vertices, or on the whole body where nothing is selected, times a factor of time.
+struct LoadSettings : Selector {
+  Vec3 force = Vec3::Zero();         // in all, in equal parts to the vertices [N]
+  Vec3 traction = Vec3::Zero();      // on boundary triangles with all corners selected, per rest area [N/m^2]
+  double pressure = 0.0;             // likewise, against their outward normal at rest: a dead load [Pa]
+  Vec3 body_force = Vec3::Zero();    // on tets with all corners selected, per rest volume [N/m^3]
+  Vec3 acceleration = Vec3::Zero();  // likewise, times their mass [m/s^2]
+  std::vector<std::array<double, 2>> curve;  // (t, factor), linear between, constant outside; none: 1
 };
 
 /// X_world = translate + rotate(scale · X_file). The rest shape itself is placed.
@@ -56,8 +94,13 @@ struct BodySettings {
   double scale = 1.0;             // > 0
   Vec3 rotate = Vec3::Zero();     // Euler angles about the fixed x, then y, then z axis [degrees]
   Vec3 translate = Vec3::Zero();  // [m]
-  Vec3 velocity = Vec3::Zero();   // initial velocity [m/s]; pinned vertices start at rest
+  // At the start: velocity + spin × (X - centre of mass) + those of the file. Pins start with their own.
+  Vec3 velocity = Vec3::Zero();  // [m/s]
+  Vec3 spin = Vec3::Zero();      // [rad/s]
+  std::string velocities;        // file of a velocity for each vertex; whoever reads it fills in BodyInput's
   std::vector<PinSettings> pin;
+  std::vector<SpringSettings> spring;
+  std::vector<LoadSettings> load;
 };
 
 struct TimeSettings {

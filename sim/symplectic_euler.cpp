@@ -26,17 +26,16 @@ class SymplecticEuler : public Integrator {
 public:
   SymplecticEuler(const SolverSettings& settings, const Model& model)
       : linear_solver_((check(settings), settings.blas_threads)), K_(model.pattern()) {
-    linear_solver_.analyze(model.pattern(), model.pins());
-    K_.set_zero();
-    model.add_mass(1.0, K_);
-    has_mass_ = linear_solver_.factorize(K_) == FactorStatus::ok;
+    hold(model, model.held(0.0));
   }
 
   std::string_view name() const override { return "symplectic_euler"; }
   int history_levels() const override { return 0; }
 
   StepReport step(const Model& model, State& state, double h) override {
+    hold(model, model.held(state.t + 0.5 * h));
     if (!has_mass_) return {StepStatus::not_positive, 0, 0.0, h};
+    StepReport report{StepStatus::converged, 0, 0.0, h};
     VecX q = state.q, qdot = state.qdot;
     double rest = h;
     int taken = 0;
@@ -45,7 +44,7 @@ public:
       if (!(taken + steps <= kMostSteps)) return {StepStatus::not_finite, 0, 0.0, h};
       const int now = std::min(static_cast<int>(std::max(steps, 1.0)), kStepsAnEstimate);
       const double dt = rest / std::max(steps, 1.0);
-      for (int k = 0; k < now; ++k) advance(model, dt, q, qdot);
+      for (int k = 0; k < now; ++k) advance(model, state.t + (h - rest) + k * dt, dt, q, qdot, report);
       taken += now;
       rest = now < steps ? rest - now * dt : 0.0;
       if (!q.allFinite() || !is_defined(model, q)) return {StepStatus::not_finite, 0, 0.0, h};
@@ -53,16 +52,40 @@ public:
     state.q = std::move(q);
     state.qdot = std::move(qdot);
     state.t += h;
-    return {StepStatus::converged, 0, 0.0, h, taken};
+    report.steps = taken;
+    return report;
   }
 
 private:
-  void advance(const Model& model, double h, VecX& q, VecX& qdot) {
+  /// M is factorized anew when other coordinates are held.
+  void hold(const Model& model, const Held& held) {
+    if (held_ == &held) return;
+    held_ = &held;
+    linear_solver_.analyze(model.pattern(), held.pins());
+    K_.set_zero();
+    model.add_mass(1.0, K_);
+    has_mass_ = linear_solver_.factorize(K_) == FactorStatus::ok;
+  }
+
+  /// By h from t on; loads at its start.
+  void advance(const Model& model, double t, double h, VecX& q, VecX& qdot, StepReport& report) {
     VecX f = VecX::Zero(q.size());
     for (const auto& term : model.energies()) term->add_gradient(q, -1.0, f);
-    linear_solver_.solve(f, acceleration_);
+    const VecX load = model.load_force(t);
+    if (load.size() != 0) f += load;
+    const VecX q0 = q;
+    if (held_->is_driven()) {
+      held_->place(t + h, q);
+      const VecX driven = held_->pins().pinned_part((q - q0) / h - qdot) / h;
+      linear_solver_.solve(f - model.mass_times(driven), acceleration_);
+      acceleration_ += driven;
+    } else {
+      linear_solver_.solve(f, acceleration_);
+    }
     qdot += h * acceleration_;
-    q += h * qdot;
+    q = q0 + h * qdot;
+    if (held_->is_driven()) held_->place(t + h, q);  // to the bit
+    report.account(*held_, model.mass_times(acceleration_) - f, load, q - q0);
   }
 
   /// 2/ω of the free vertices, by Lanczos's method for K v = ω² M v from a fixed vector on; infinite when
@@ -71,13 +94,13 @@ private:
     K_.set_zero();
     for (const auto& term : model.energies()) term->add_hessian(q, 1.0, HessianKind::exact, K_);
     VecX v = noise(q.size()), before = VecX::Zero(q.size());
-    model.pins().clear_pinned(v);
+    held_->pins().clear_pinned(v);
     std::vector<double> diagonal, beside;
     double beta = std::sqrt(v.dot(model.mass_times(v)));
     while (static_cast<int>(diagonal.size()) < kLanczosSteps && beta > 0.0) {
       v /= beta;
       VecX Kv = K_.times(v);
-      model.pins().clear_pinned(Kv);
+      held_->pins().clear_pinned(Kv);
       const double alpha = v.dot(Kv);
       diagonal.push_back(alpha);
       VecX w;
@@ -117,6 +140,7 @@ private:
   }
 
   LinearSolver linear_solver_;  // of M
+  const Held* held_ = nullptr;  // that it is made for
   BlockHessian K_;
   VecX acceleration_;
   bool has_mass_ = false;

@@ -10,6 +10,7 @@
 #include "sim/materials/neo_hookean.h"
 #include "sim/materials/stable_neo_hookean.h"
 #include "sim/materials/stable_neo_hookean_log.h"
+#include "sim/springs.h"
 #include "tests/support/finite_differences.h"
 #include "tests/support/truth.h"
 #include "tests/unit/sim/mesh_fixtures.h"
@@ -68,6 +69,16 @@ struct MakeGravity {
   }
 };
 
+/// Stretched, pressed and slack ones, two of them at one vertex.
+struct MakeSprings {
+  static constexpr const char* kName = "springs";
+  std::unique_ptr<Energy> operator()(const TetMesh&, const std::shared_ptr<const BlockPattern>&) const {
+    return std::make_unique<Springs>(std::vector<Springs::Spring>{{3, 40.0, Vec3(0.2, 0.1, -0.3), 0.0},
+                                                                  {7, 25.0, Vec3(2.0, 1.0, 0.0), 0.4},
+                                                                  {7, 60.0, Vec3(0.1, 0.4, 0.6), 5.0}});
+  }
+};
+
 template <class Make>
 class Terms : public testing::Test {
 protected:
@@ -78,7 +89,7 @@ protected:
   VecX dq = random_vector(3 * mesh.vertex_count(), 2, 0.1);
 };
 using AllTerms = testing::Types<MakeElasticity<NeoHookean>, MakeElasticity<StableNeoHookean>,
-                                MakeElasticity<StableNeoHookeanLog>, MakeGravity>;
+                                MakeElasticity<StableNeoHookeanLog>, MakeGravity, MakeSprings>;
 struct TermName {
   template <class Make>
   static std::string GetName(int) {
@@ -284,6 +295,25 @@ TEST(ElasticityOfStableNeoHookean, MayInvert) {
   dq[11] = -4.0;
   EXPECT_EQ(term.max_step(rest(mesh), dq), 1.0);
   EXPECT_TRUE(std::isfinite(term.value(rest(mesh) + dq)));
+}
+
+TEST(SpringsTerm, HaveAProjectedHessianWithoutNegativePart) {
+  const TetMesh mesh = cube_mesh(1);
+  const auto pattern = pattern_of(mesh);
+  const Springs springs({{0, 10.0, Vec3(0, 0, 1), 3.0}, {1, 10.0, mesh.X.row(1).transpose(), 3.0}});
+  BlockHessian exact(pattern), projected(pattern);
+  springs.add_hessian(rest(mesh), 1.0, HessianKind::exact, exact);
+  springs.add_hessian(rest(mesh), 1.0, HessianKind::projected, projected);
+  const int pressed = pattern->find(0, 0);  // to a third of its length: k (1 - 3) across, k along
+  EXPECT_EQ(Mat3(exact.block(pressed)), Mat3(Vec3(-20, -20, 10).asDiagonal()));
+  EXPECT_EQ(Mat3(projected.block(pressed)), Mat3(Vec3(0, 0, 10).asDiagonal()));
+  // Of no length it has no direction: it does not push, and is told by its stiffness.
+  VecX g = VecX::Zero(24);
+  springs.add_gradient(rest(mesh), 1.0, g);
+  EXPECT_EQ(Vec3(g.segment<3>(0)), Vec3(0, 0, 20));  // -g pushes it away from its point
+  EXPECT_EQ(Vec3(g.segment<3>(3)), Vec3::Zero());
+  EXPECT_EQ(Mat3(projected.block(pattern->find(1, 1))), Mat3(10.0 * Mat3::Identity()));
+  EXPECT_EQ(springs.value(rest(mesh)), 0.5 * 10 * 4 + 0.5 * 10 * 9);
 }
 
 TEST(GravityTerm, IsMinusTheForceTimesThePosition) {

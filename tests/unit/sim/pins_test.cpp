@@ -18,8 +18,24 @@ TEST(Pins, DropTheirCoordinates) {
   EXPECT_EQ(pins.free_index(2), -1);
 }
 
-TEST(Pins, ProjectAsTheirMatrixDoes) {
-  const Pins pins(4, {0, 2});
+TEST(Pins, MayHoldSingleAxes) {
+  const Pins pins(std::vector<char>{1, 0, 1, 0, 0, 0, 1, 1, 1});
+  EXPECT_EQ(pins.vertices(), (std::vector<int>{0, 2}));
+  EXPECT_EQ(pins.free_vertices(), (std::vector<int>{0, 1}));
+  EXPECT_EQ(pins.free_dofs(), 4);
+  EXPECT_TRUE(pins.is_held(0));
+  EXPECT_FALSE(pins.is_held(1));
+  EXPECT_FALSE(pins.is_pinned(0));
+  EXPECT_TRUE(pins.is_pinned(2));
+  VecX expected(9);
+  expected << 1, 0, 3, 0, 0, 0, 7, 8, 9;
+  EXPECT_EQ(pins.pinned_part(VecX::LinSpaced(9, 1, 9)), expected);
+}
+
+class ProjectionOf : public testing::TestWithParam<Pins> {};
+
+TEST_P(ProjectionOf, PinsIsThatOfTheirMatrix) {
+  const Pins& pins = GetParam();
   const VecX q = VecX::LinSpaced(12, 1, 12);
   const SparseMatrix P = pins.matrix();
   EXPECT_EQ(pins.project(q), VecX(P * q));
@@ -29,6 +45,9 @@ TEST(Pins, ProjectAsTheirMatrixDoes) {
   EXPECT_EQ(cleared, VecX(P.transpose() * (P * q)));
   EXPECT_DOUBLE_EQ(pins.free_norm(q), (P * q).norm());
 }
+INSTANTIATE_TEST_SUITE_P(Pins, ProjectionOf,
+                         testing::Values(Pins(4, {0, 2}),
+                                         Pins(std::vector<char>{1, 0, 1, 0, 0, 0, 1, 1, 1, 0, 1, 0})));
 
 /// q = Pᵀ q_free + b with b the pinned positions.
 TEST(Pins, PartAPositionIntoFreeAndPinned) {

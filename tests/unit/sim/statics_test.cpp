@@ -41,6 +41,12 @@ TEST_P(SaggingBar, MeetsTruth) {
   EXPECT_NEAR(energies.elastic, elastic, 1e-9 * elastic);
   EXPECT_NEAR(energies.gravitational, gravitational, 1e-9 * std::abs(gravitational));
   EXPECT_EQ(energies.kinetic, 0.0);
+
+  const std::vector<Vec3> forces = model.held(0.0).forces(report.balance);
+  ASSERT_EQ(forces.size(), 1u);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(forces[0][k],
+                expected["sum_constraint_force_on_pins"][static_cast<std::size_t>(k)].get<double>(), 1e-7);
 }
 
 INSTANTIATE_TEST_SUITE_P(Statics, SaggingBar,
