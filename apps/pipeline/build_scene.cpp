@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/pipeline/recordings.h"
 #include "sim/error.h"
 #include "sim/mesh_io.h"
 #include "sim/pins.h"
@@ -43,6 +44,23 @@ std::vector<render::Vec3> to_render(const sim::Points& points) {
   return positions;
 }
 
+/// Selections are told here with their place in the scene. The recorded paths of the pins.
+std::vector<sim::Recording> select_and_read_paths(const std::filesystem::path& directory,
+                                                  const BodyDesc& body, const sim::Points& placed) {
+  std::vector<sim::Recording> paths;
+  for (std::size_t i = 0; i < body.physics.pin.size(); ++i) {
+    const sim::PinSettings& pin = body.physics.pin[i];
+    const std::vector<int> selected = sim::select_vertices(placed, pin, body.pin_places[i]);
+    paths.push_back(pin.path.empty() ? sim::Recording{} : read_path(directory / pin.path, selected.size()));
+  }
+  for (std::size_t i = 0; i < body.physics.spring.size(); ++i)
+    sim::select_vertices(placed, body.physics.spring[i], body.spring_places[i]);
+  for (std::size_t i = 0; i < body.physics.load.size(); ++i)
+    if (!body.physics.load[i].is_empty())
+      sim::select_vertices(placed, body.physics.load[i], body.load_places[i]);
+  return paths;
+}
+
 }  // namespace
 
 sim::Model build_model(const SceneDesc& scene, Progress& progress) {
@@ -56,10 +74,11 @@ sim::Model build_model(const SceneDesc& scene, Progress& progress) {
     progress.note(fmt::format("{}: {} vertices, {} tets, {} as placed", file.string(), mesh.vertex_count(),
                               mesh.tet_count(), size_of(placed)));
     note_all(progress, file.string(), remarks);
-    for (std::size_t i = 0; i < body.physics.pin.size(); ++i) {  // told here with their place in the scene
-      sim::select_vertices(placed, body.physics.pin[i], body.pin_places[i]);
-    }
-    bodies.push_back({std::move(mesh), body.physics});
+    sim::BodyInput input{std::move(mesh), body.physics};
+    if (!body.physics.velocities.empty())
+      input.velocities = read_velocities(scene.directory / body.physics.velocities, placed.rows());
+    input.recordings = select_and_read_paths(scene.directory, body, placed);
+    bodies.push_back(std::move(input));
   }
   return {std::move(bodies), scene.time.gravity};
 }

@@ -44,6 +44,8 @@ bool StateSource::simulate(int frame, sim::State& state, StateRecord& record) {
   record.energy = model_.energies_of(state);
   record.mass = model_.total_mass();
   record.momentum = model_.momentum(state);
+  record.angular_momentum = model_.angular_momentum(state);
+  record.min_J = model_.min_J(state.q);
   record.seconds = watch.seconds();
   return true;
 }

@@ -14,6 +14,16 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
+sim::Vec3 vector_of(const Json& json) {
+  const auto v = json.get<std::array<double, 3>>();
+  return {v[0], v[1], v[2]};
+}
+/// Zero where it is not told.
+sim::Vec3 vector_of(const Json& json, const char* key) {
+  return json.contains(key) ? vector_of(json.at(key)) : sim::Vec3(sim::Vec3::Zero());
+}
+Json json_of(const sim::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
 FrameRecord from_json(const Json& json) {
   FrameRecord record;
   record.frame = json.at("frame").get<int>();
@@ -29,8 +39,13 @@ FrameRecord from_json(const Json& json) {
     state.energy = {energy.at("kinetic").get<double>(), energy.at("elastic").get<double>(),
                     energy.at("gravitational").get<double>()};
     state.mass = json.at("mass").get<double>();
-    const auto momentum = json.at("momentum").get<std::array<double, 3>>();
-    state.momentum = {momentum[0], momentum[1], momentum[2]};
+    state.momentum = vector_of(json.at("momentum"));
+    state.angular_momentum = vector_of(json, "angular_momentum");
+    state.min_J = json.value("min_J", 1.0);
+    state.report.work_pins = json.value("work_pins", 0.0);
+    state.report.work_loads = json.value("work_loads", 0.0);
+    for (const Json& force : json.value("pin_forces", Json::array()))
+      state.report.pin_forces.push_back(vector_of(force));
     state.report.steps = json.at("steps").get<int>();
     state.report.halvings = json.at("halvings").get<int>();
     state.report.newton_iterations = json.at("newton_iterations").get<int>();
@@ -70,7 +85,13 @@ Json to_json(const FrameRecord& record) {
                       {"elastic", state.energy.elastic},
                       {"gravitational", state.energy.gravitational}};
     json["mass"] = state.mass;
-    json["momentum"] = {state.momentum.x(), state.momentum.y(), state.momentum.z()};
+    json["momentum"] = json_of(state.momentum);
+    json["angular_momentum"] = json_of(state.angular_momentum);
+    json["min_J"] = state.min_J;
+    json["work_pins"] = state.report.work_pins;
+    json["work_loads"] = state.report.work_loads;
+    json["pin_forces"] = Json::array();
+    for (const sim::Vec3& force : state.report.pin_forces) json["pin_forces"].push_back(json_of(force));
     seconds["simulation"] = state.seconds;
   }
   if (record.picture) {

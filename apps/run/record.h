@@ -20,10 +20,12 @@ struct StateRecord {
   double time = 0.0;                  // [s]
   std::vector<double> history_times;  // of its levels before this one, newest first [s]
   sim::Energies energy;
-  double mass = 0.0;                       // [kg]
-  sim::Vec3 momentum = sim::Vec3::Zero();  // [kg m/s]
-  sim::FrameReport report;                 // of the steps that led here; none for frame 0
-  double seconds = 0.0;                    // spent in simulation
+  double mass = 0.0;                               // [kg]
+  sim::Vec3 momentum = sim::Vec3::Zero();          // [kg m/s]
+  sim::Vec3 angular_momentum = sim::Vec3::Zero();  // about the origin [kg m^2/s]
+  double min_J = 1.0;                              // least det F of all elements
+  sim::FrameReport report;                         // of the steps that led here; none for frame 0
+  double seconds = 0.0;                            // spent in simulation
 };
 
 /// A picture on disk, and the other channels beside it.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -70,10 +71,11 @@ struct Table {
 };
 
 /// Where a key's value stands in the description.
-using Field = std::variant<bool*, int*, std::uint32_t*, double*, float*, std::string*, sim::Vec3*,
-                           render::Vec2*, render::Vec3*, render::Color*, std::optional<double>*,
-                           std::optional<float>*, std::optional<render::Color>*,
-                           std::optional<sim::BoxSelector>*, std::vector<int>*, std::vector<std::string>*>;
+using Field =
+    std::variant<bool*, int*, std::uint32_t*, double*, float*, std::string*, sim::Vec3*, render::Vec2*,
+                 render::Vec3*, render::Color*, std::optional<double>*, std::optional<float>*,
+                 std::optional<sim::Vec3>*, std::optional<render::Color>*, std::optional<sim::BoxSelector>*,
+                 std::vector<int>*, std::vector<std::string>*, std::vector<std::array<double, 2>>*>;
 
 class KeyVisitor;
 

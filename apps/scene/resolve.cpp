@@ -46,17 +46,65 @@ void resolve_material(sim::MaterialSettings& m, const std::string& path, const P
   if (!m.poisson) m.poisson = 0.3;
 }
 
-void check_pin(const sim::PinSettings& p, const std::string& path, const Places& places) {
-  if (p.vertices.empty() && !p.box && !p.sphere && !p.plane && !p.top && !p.bottom) {
-    wrong_input(fmt::format("{}{} selects nothing; give vertices, box, sphere, plane, top or bottom",
-                            places.of(path), path));
-  }
-  if (p.box && (p.box->min.array() > p.box->max.array()).any()) {
+void check_selector(const sim::Selector& s, const std::string& path, const Places& places) {
+  if (s.box && (s.box->min.array() > s.box->max.array()).any()) {
     wrong_input(fmt::format("{}{}.box: the first corner must be the lesser one in x, y and z",
                             places.of(path + ".box"), path));
   }
-  if (p.plane && (p.plane->normal.array() == 0.0).all()) {
+  if (s.plane && (s.plane->normal.array() == 0.0).all()) {
     wrong_input(fmt::format("{}{}.plane.normal must not be 0", places.of(path + ".plane.normal"), path));
+  }
+}
+
+void check_selects(const sim::Selector& s, const std::string& path, const Places& places) {
+  if (s.is_empty()) {
+    wrong_input(fmt::format("{}{} selects nothing; give vertices, box, sphere, plane, top or bottom",
+                            places.of(path), path));
+  }
+  check_selector(s, path, places);
+}
+
+void check_pin(const sim::PinSettings& p, const std::string& path, const Places& places) {
+  check_selects(p, path, places);
+  if (p.axes.empty()) {
+    wrong_input(fmt::format("{}{}.axes is empty; give some of x, y, z", places.of(path + ".axes"), path));
+  }
+  if (!p.path.empty() && !p.key.empty()) {
+    wrong_input(
+        fmt::format("{}{} has both keys and a path; give one of them", places.of(path + ".path"), path));
+  }
+  for (std::size_t i = 1; i < p.key.size(); ++i) {
+    if (p.key[i].time > p.key[i - 1].time) continue;
+    const std::string time = fmt::format("{}.key.{}.time", path, i);
+    wrong_input(fmt::format("{}{} = {} must be later than the {} before it", places.of(time), time,
+                            p.key[i].time, p.key[i - 1].time));
+  }
+}
+
+void check_load(const sim::LoadSettings& l, const std::string& path, const Places& places) {
+  check_selector(l, path, places);
+  for (std::size_t i = 1; i < l.curve.size(); ++i) {
+    if (l.curve[i][0] > l.curve[i - 1][0]) continue;
+    wrong_input(fmt::format("{}{}.curve: time {} must be later than the {} before it",
+                            places.of(path + ".curve"), path, l.curve[i][0], l.curve[i - 1][0]));
+  }
+}
+
+/// Pins, springs and loads.
+void resolve_boundary(BodyDesc& body, double fps, const std::string& path, const Places& places) {
+  sim::BodySettings& p = body.physics;
+  const auto each = [&](auto& list, const char* name, std::vector<std::string>& at, auto&& check) {
+    for (std::size_t j = 0; j < list.size(); ++j) {
+      const std::string item = fmt::format("{}.{}.{}", path, name, j);
+      check(list[j], item, places);
+      at.push_back(places.of(item) + item);
+    }
+  };
+  each(p.pin, "pin", body.pin_places, check_pin);
+  each(p.spring, "spring", body.spring_places, check_selects);
+  each(p.load, "load", body.load_places, check_load);
+  for (sim::PinSettings& pin : p.pin) {
+    if (!pin.path.empty() && !pin.path_fps) pin.path_fps = fps;
   }
 }
 
@@ -138,11 +186,7 @@ void resolve_scene(SceneDesc& scene, const Places& places, const std::string& st
     }
     if (body.mesh.empty()) wrong_input(fmt::format("{}{}.mesh is empty", places.of(path + ".mesh"), path));
     resolve_material(body.physics.material, path + ".material", places);
-    for (std::size_t j = 0; j < body.physics.pin.size(); ++j) {
-      const std::string pin = fmt::format("{}.pin.{}", path, j);
-      check_pin(body.physics.pin[j], pin, places);
-      body.pin_places.push_back(places.of(pin) + pin);
-    }
+    resolve_boundary(body, scene.time.fps, path, places);
   }
   check_camera(scene.camera, places);
   check_looks(scene, places);
@@ -153,6 +197,10 @@ void check_scene_files(const SceneDesc& scene, const Places& places) {
     const std::string path = fmt::format("body.{}", i);
     check_file(scene, scene.body[i].mesh, path + ".mesh", sim::tet_mesh_extensions(), places);
     check_file(scene, scene.body[i].surface.mesh, path + ".surface.mesh", sim::tri_mesh_extensions(), places);
+    const sim::BodySettings& body = scene.body[i].physics;
+    check_file(scene, body.velocities, path + ".velocities", {".npy"}, places);
+    for (std::size_t j = 0; j < body.pin.size(); ++j)
+      check_file(scene, body.pin[j].path, fmt::format("{}.pin.{}.path", path, j), {".npy"}, places);
   }
 }
 

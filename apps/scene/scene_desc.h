@@ -26,7 +26,8 @@ struct BodyDesc {
   std::string mesh;       // tet mesh; relative to the scene file (or to RUN, for RUN/scene.toml)
   SurfaceDesc surface;    // [body.surface]
   render::Material look;  // [body.look]
-  std::vector<std::string> pin_places;  // "a.toml:12:1: body.0.pin.0": where each pin stands, for errors
+  // "a.toml:12:1: body.0.pin.0": where each stands, for errors
+  std::vector<std::string> pin_places, spring_places, load_places;
 };
 
 /// A scene file as plain values, every default filled in. What the file says, not yet what it makes.

@@ -1,11 +1,13 @@
 #include "apps/pipeline/build_scene.h"
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "apps/npy.h"
 #include "apps/scene/scene.h"
 #include "sim/error.h"
 #include "tests/support/run_tree.h"
@@ -100,6 +102,59 @@ TEST(BuildScene, MeshesMoveWithTheTets) {
     const render::Vec3 moved = renderer.meshes[0][i] - drawn.meshes[0].positions[i];
     EXPECT_LT((moved - render::Vec3(0.5F, 0.0F, 0.0F)).norm(), 1e-6F);
   }
+}
+
+/// The bar's bottom follows a file, each vertex its own way; all start as another file says.
+TEST(BuildScene, BodiesMoveAsFilesSay) {
+  Progress quiet(true);
+  tests::TemporaryDirectory dir;
+  const std::string bottom = "body.0.pin.1.bottom=0.001";
+  const SceneDesc plain = bar_scene({bottom});
+  const std::size_t n =
+      sim::select_vertices(build_model(plain, quiet).mesh().X, plain.body[0].physics.pin[1], "here").size();
+  std::vector<double> positions(2 * n * 3), velocities(63 * 3), shift = {0, 0, 0, 0.5, 0.25, 0};
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = 0.125 * static_cast<double>(i);
+  for (std::size_t i = 0; i < velocities.size(); ++i) velocities[i] = static_cast<double>(i);
+  const auto file = [&](const char* name, const std::vector<double>& values, std::vector<std::size_t> shape) {
+    dir.write(name, npy_bytes(values, shape));
+    return "'" + (dir.path() / name).string() + "'";
+  };
+  const std::string path = "body.0.pin.1.path=" + file("p.npy", positions, {2, n, 3});
+  const SceneDesc scene = bar_scene(
+      {bottom, path, "body.0.pin.1.path_fps=10", "body.0.velocities=" + file("v.npy", velocities, {63, 3})});
+  const sim::Model model = build_model(scene, quiet);
+  sim::VecX q = model.initial_state().q;
+  model.held(0.0).place(0.1, q);
+  std::size_t k = n * 3;
+  for (int v = 0; v < 63; ++v) {
+    if (model.mesh().X(v, 1) == model.mesh().X.col(1).minCoeff()) {
+      for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(q[3 * v + axis], positions.at(k++), 1e-12);
+    } else if (!model.pins().is_pinned(v)) {
+      EXPECT_EQ(model.initial_state().qdot[3 * v + 1], 3 * v + 1);
+    }
+  }
+  EXPECT_EQ(k, positions.size());
+  EXPECT_EQ(bar_scene({bottom, path}).body[0].physics.pin[1].path_fps, 30.0);
+
+  const auto told = [&](const std::vector<std::string>& overrides) -> std::string {
+    try {
+      build_model(bar_scene(overrides), quiet);
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "nothing";
+  };
+  const std::string wrong = (dir.path() / "w.npy").string();
+  EXPECT_EQ(
+      told({bottom, "body.0.pin.1.path=" + file("w.npy", shift, {3, 2})}),
+      wrong + ": has shape (3, 2); (T, 3) or (T, " + std::to_string(n) + ", 3) with T >= 1 would be right");
+  EXPECT_EQ(told({"body.0.velocities=" + file("w.npy", shift, {2, 3})}),
+            wrong + ": has shape (2, 3); (63, 3) would be right");
+  shift[4] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(told({bottom, "body.0.pin.1.path=" + file("w.npy", shift, {2, 3})}),
+            wrong + ": has a value that is not finite");
+  EXPECT_TRUE(told({bottom, "body.0.pin.1.path='gone.npy'"}).ends_with("there is no such file"));
+  EXPECT_TRUE(told({bottom, "body.0.pin.1.path='gone.txt'"}).ends_with("known are .npy"));
 }
 
 }  // namespace

@@ -118,6 +118,31 @@ TEST_F(RunCommand, EnergyHasTheColumnsOfTheContract) {
   EXPECT_EQ(rows, 4);
 }
 
+/// Driven by a file, let go and pushed: RUN holds the file, and goes on from any frame to the same bytes.
+TEST_F(RunCommand, ADrivenBodyIsResumedToTheSameBytes) {
+  const std::vector<double> shift = {0, 0, 0, 0.01, 0, 0, 0.03, 0.01, 0, 0.06, 0, 0};
+  dir_.write("path.npy", apps::npy_bytes(shift, std::array<std::size_t, 2>{4, 3}));
+  const Arguments driven = {"--set", "body.0.pin.0.path='" + at("path.npy").string() + "'",
+                            "--set", "body.0.pin.0.release=0.07",
+                            "--set", "body.0.load.0={top=0.5, force=[3, 0, 0], curve=[[0, 0], [0.1, 1]]}",
+                            "--set", "body.0.spring.0={bottom=0.1, stiffness=10}",
+                            "--set", "body.0.spin=[0, 1, 0]"};
+  expect(0, simulate("whole", driven));
+  expect(0, simulate("parts", driven + Arguments{"--frames", "0..1"}));
+  expect(0, simulate("parts", driven + Arguments{"--frames", "2"}));
+  expect(0, simulate("parts", driven));
+  for (const std::string name : {"energy.csv", "states/frame_0003.npy", "inputs/path.npy"})
+    EXPECT_EQ(read_all(at("whole") / name), read_all(at("parts") / name)) << name;
+  fs::remove(at("path.npy"));
+  expect(0, {"simulate", (at("whole") / "scene.toml").string(), "-o", at("again").string(), "--quiet"});
+  EXPECT_EQ(read_all(at("whole") / "energy.csv"), read_all(at("again") / "energy.csv"));
+  const nlohmann::json frames = run_json("whole").at("frames");
+  EXPECT_EQ(frames[0].at("pin_forces").size(), 0U);
+  EXPECT_EQ(frames[1].at("pin_forces").size(), 1U);
+  EXPECT_GT(frames[1].at("work_pins"), 0.0);
+  EXPECT_EQ(frames[3].at("pin_forces")[0][1], 0.0);  // released
+}
+
 TEST_F(RunCommand, DefaultsToOutAndTheName) {
   fs::create_directories(at("here"));
   expect(0,

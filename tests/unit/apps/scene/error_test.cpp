@@ -232,6 +232,38 @@ TEST(WrongBody, Pins) {
              "a.toml:4:7: body.0.pin.0.top = 1.5 is out of range; it must be in (0, 1]"}});
 }
 
+TEST(WrongBody, MotionOfPins) {
+  expect_told_of_body(
+      {Wrong{"[[body.pin]]\ntop = 0.1\naxes = ['x', 'w']",
+             "a.toml:5:14: unknown body.0.pin.0.axes.1 'w'; known are x, y, z"},
+       Wrong{"[[body.pin]]\ntop = 0.1\naxes = []",
+             "a.toml:5:8: body.0.pin.0.axes is empty; give some of x, y, z"},
+       Wrong{"[[body.pin]]\ntop = 0.1\nrelease = 0",
+             "a.toml:5:11: body.0.pin.0.release = 0 is out of range; it must be > 0"},
+       Wrong{
+           "[[body.pin]]\ntop = 0.1\n[[body.pin.key]]\nrotate = [0, 1, 0]",
+           "a.toml:5:1: body.0.pin.0.key.0.time is missing: when the vertices are there; later than that of "
+           "the key before"},
+       Wrong{"[[body.pin]]\ntop = 0.1\n[[body.pin.key]]\ntime = 1\n[[body.pin.key]]\ntime = 0.5",
+             "a.toml:8:8: body.0.pin.0.key.1.time = 0.5 must be later than the 1 before it"},
+       Wrong{"[[body.pin]]\ntop = 0.1\npath = 'a.npy'\n[[body.pin.key]]\ntime = 1",
+             "a.toml:5:8: body.0.pin.0 has both keys and a path; give one of them"}});
+}
+
+TEST(WrongBody, SpringsAndLoads) {
+  expect_told_of_body(
+      {Wrong{"[[body.spring]]\nstiffness = 1",
+             "a.toml:3:1: body.0.spring.0 selects nothing; give vertices, box, sphere, plane, top or bottom"},
+       Wrong{"[[body.spring]]\ntop = 0.1",
+             "a.toml:3:1: body.0.spring.0.stiffness is missing: of each selected vertex's own spring"},
+       Wrong{"[[body.load]]\nforce = [1, 0, 0]\ncurve = [[0, 1], [0, 2]]",
+             "a.toml:5:9: body.0.load.0.curve: time 0 must be later than the 0 before it"},
+       Wrong{"[[body.load]]\ncurve = [0, 1]",
+             "a.toml:4:10: body.0.load.0.curve.0 must be an array of 2 numbers, not 0"},
+       Wrong{"[[body.load]]\ncurve = 3",
+             "a.toml:4:9: body.0.load.0.curve must be an array of pairs, [[time, factor], ...], not 3"}});
+}
+
 TEST(WrongScene, WithoutABodyIsTold) {
   EXPECT_EQ(error_of(""), "a.toml: the scene has no body; give at least one [[body]] with a mesh");
   EXPECT_EQ(error_of("body = []"),

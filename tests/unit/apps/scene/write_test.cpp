@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -91,6 +92,12 @@ private:
     if (below(2) == 0) value.push_back(k.choices().front());
   }
 
+  void fill(const Key&, std::vector<std::array<double, 2>>& value) {
+    value.resize(static_cast<std::size_t>(below(4)));
+    double t = -unit();
+    for (auto& pair : value) pair = {t += unit() + 1e-3, 1e3 * unit()};
+  }
+
   std::mt19937 random_;
   int names_ = 0;  // each its own
 };
@@ -109,7 +116,14 @@ void settle(SceneDesc& s, RandomFill& random) {
     if (kind == 0) m.young = 12345.678, m.poisson = 1.0 / 3.0;
     if (kind == 1) m.mu = 0.1, m.lambda = 0.3;
     if (kind == 2) m.C = 1e-300, m.D = 1e300;
-    for (sim::PinSettings& p : b.physics.pin) p.vertices.push_back(3);
+    for (sim::PinSettings& p : b.physics.pin) {
+      p.vertices.push_back(3);
+      p.axes.push_back("z");
+      for (std::size_t i = 0; i < p.key.size(); ++i) p.key[i].time = 0.1 * static_cast<double>(i);
+      if (!p.key.empty()) p.path.clear();
+      if (!p.path.empty() && !p.path_fps) p.path_fps = 24.0;
+    }
+    for (sim::SpringSettings& spring : b.physics.spring) spring.vertices.push_back(3);
   }
   const Eigen::Vector3d position = s.camera.position.cast<double>(),
                         look_at = s.camera.look_at.cast<double>();
@@ -121,7 +135,8 @@ void settle(SceneDesc& s, RandomFill& random) {
 class Flat : public KeyVisitor {
 public:
   using Value = std::variant<bool, int, std::uint32_t, double, float, std::string, sim::Vec3, render::Vec2,
-                             render::Vec3, std::vector<int>, std::vector<std::string>, std::monostate>;
+                             render::Vec3, std::vector<int>, std::vector<std::string>,
+                             std::vector<std::array<double, 2>>, std::monostate>;
   std::vector<std::pair<std::string, Value>> values;
 
   void key(const Key& k, Field field) override {
