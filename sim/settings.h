@@ -11,16 +11,30 @@
 /// file.
 namespace lagomorph::sim {
 
-/// Give (young, poisson), or (mu, lambda), or for `neo_hookean` (C, D). With none, young = 1e5 Pa and poisson
-/// = 0.3.
+/// Fibres that a material holds; see Fibre.
+struct FibreSettings {
+  Vec3 direction = Vec3::Zero();  // of the rest shape as it is placed, of any length but 0
+  double stiffness = 0.0;         // what they add to the modulus along themselves at rest [Pa], > 0
+  double exponent = 0.0;          // how they stiffen with the stretch, >= 0; 0 not
+  bool compression = false;       // they push too; else slack fibres do nothing
+};
+
+/// Give (young, poisson), or (mu, lambda), or for `neo_hookean` (C, D), for `mooney_rivlin` (C10, C01, bulk),
+/// or a preset. With none, young = 1e5 Pa and poisson = 0.3. What is given goes before the preset's.
 struct MaterialSettings {
   std::string model = "stable_neo_hookean";  // see material_names()
+  std::string preset = "none";               // see material_preset_names(): young and poisson by name
   std::optional<double> young;               // Young's modulus [Pa], > 0
   std::optional<double> poisson;             // Poisson's ratio, in (-1, 0.5)
   std::optional<double> mu;                  // shear modulus [Pa], > 0
   std::optional<double> lambda;              // Lamé's first parameter [Pa]
+  std::string moduli = "lecture";            // of neo_hookean, D = lambda/2; "matched": (lambda + 2mu/3)/2
   std::optional<double> C;                   // lecture's C = mu/2 [Pa]
   std::optional<double> D;                   // lecture's D = lambda/2 [Pa]
+  std::optional<double> C10;                 // of mooney_rivlin [Pa], >= 0
+  std::optional<double> C01;                 // of mooney_rivlin [Pa], >= 0
+  std::optional<double> bulk;                // bulk modulus of mooney_rivlin [Pa], >= 0
+  std::optional<FibreSettings> fibre;
 };
 
 struct BoxSelector {

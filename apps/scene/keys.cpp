@@ -8,6 +8,7 @@
 #include "render/path/filter.h"
 #include "render/renderer.h"
 #include "sim/integrator.h"
+#include "sim/materials/presets.h"
 #include "sim/materials/table.h"
 
 namespace lagomorph::apps {
@@ -20,6 +21,7 @@ std::vector<std::string> mass_choices() { return {"consistent", "lumped"}; }
 std::vector<std::string> axis_choices() { return {"x", "y", "z"}; }
 std::vector<std::string> interpolation_choices() { return {"smooth", "linear"}; }
 std::vector<std::string> hessian_choices() { return {"auto", "projected"}; }
+std::vector<std::string> moduli_choices() { return {"lecture", "matched"}; }
 
 void visit_time(sim::TimeSettings& t, KeyVisitor& v) {
   v.key({.name = "fps",
@@ -76,25 +78,53 @@ void visit_solver(sim::SolverSettings& s, KeyVisitor& v) {
         &s.blas_threads);
 }
 
+void visit_fibre(sim::FibreSettings& f, KeyVisitor& v) {
+  v.key({.name = "direction",
+         .part = simulation,
+         .meaning = "of the rest shape as it is placed, of any length but 0",
+         .required = true},
+        &f.direction);
+  v.key({.name = "stiffness",
+         .unit = pascal,
+         .bounds = above(0),
+         .part = simulation,
+         .meaning = "what the fibres add to the modulus along themselves at rest",
+         .required = true},
+        &f.stiffness);
+  v.key({.name = "exponent",
+         .bounds = at_least(0),
+         .part = simulation,
+         .meaning = "k2 of Holzapfel, Gasser and Ogden 2000: stiffening with the stretch; 0 quadratic"},
+        &f.exponent);
+  v.key(
+      {.name = "compression", .part = simulation, .meaning = "fibres push too; false: slack ones do nothing"},
+      &f.compression);
+}
+
 void visit_material(sim::MaterialSettings& m, KeyVisitor& v) {
   v.key({.name = "model",
          .part = simulation,
-         .meaning = "energy density: neo_hookean is the lecture's, stable_neo_hookean is Smith 2018 without "
-                    "and stable_neo_hookean_log with the logarithm",
+         .meaning = "energy density; neo_hookean is the lecture's, stable_neo_hookean Smith 2018 without and "
+                    "stable_neo_hookean_log with the logarithm",
          .choices = sim::material_names},
         &m.model);
+  v.key({.name = "preset",
+         .part = simulation,
+         .meaning = "young and poisson of a substance, where no other constants are given",
+         .choices = sim::material_preset_names},
+        &m.preset);
   v.key({.name = "young",
          .unit = pascal,
          .bounds = above(0),
          .part = simulation,
          .meaning = "Young's modulus",
-         .default_note = "1e5, with no other modulus"},
+         .default_note = "the preset's, or 1e5, with no other modulus"},
         &m.young);
   v.key({.name = "poisson",
          .bounds = inside(-1, 0.5),
          .part = simulation,
-         .meaning = "Poisson's ratio; of neo_hookean >= 0",
-         .default_note = "0.3, with no other modulus"},
+         .meaning = "Poisson's ratio; of the lecture's neo_hookean, neo_hookean_log and fixed_corotated >= 0",
+         .default_note = "the preset's, or 0.3, with no other modulus"},
         &m.poisson);
   v.key({.name = "mu",
          .unit = pascal,
@@ -105,8 +135,15 @@ void visit_material(sim::MaterialSettings& m, KeyVisitor& v) {
   v.key({.name = "lambda",
          .unit = pascal,
          .part = simulation,
-         .meaning = "Lamé's first parameter, > -2/3 mu, of neo_hookean >= 0; with mu"},
+         .meaning = "Lamé's first parameter, > -2/3 mu, or >= 0 where poisson is; with mu"},
         &m.lambda);
+  v.key({.name = "moduli",
+         .part = simulation,
+         .meaning =
+             "of neo_hookean: the lecture's D = lambda/2, or D = (lambda + 2mu/3)/2, which matches young "
+             "and poisson",
+         .choices = moduli_choices},
+        &m.moduli);
   v.key({.name = "C",
          .unit = pascal,
          .bounds = above(0),
@@ -117,8 +154,24 @@ void visit_material(sim::MaterialSettings& m, KeyVisitor& v) {
          .unit = pascal,
          .bounds = at_least(0),
          .part = simulation,
-         .meaning = "the lecture's D = lambda/2; with C, of neo_hookean"},
+         .meaning = "the lecture's D; with C, of neo_hookean"},
         &m.D);
+  v.key({.name = "C10",
+         .unit = pascal,
+         .bounds = at_least(0),
+         .part = simulation,
+         .meaning = "of mooney_rivlin, with C01 and bulk, instead of young and poisson"},
+        &m.C10);
+  v.key({.name = "C01", .unit = pascal, .bounds = at_least(0), .part = simulation, .meaning = "likewise"},
+        &m.C01);
+  v.key({.name = "bulk",
+         .unit = pascal,
+         .bounds = at_least(0),
+         .part = simulation,
+         .meaning = "bulk modulus of mooney_rivlin, with C10 and C01"},
+        &m.bulk);
+  v.optional({.name = "fibre", .meaning = "fibres in it, beside the model", .is_inline = true}, m.fibre,
+             visit_fibre);
 }
 
 void visit_selector(sim::Selector& p, KeyVisitor& v) {

@@ -11,6 +11,7 @@
 #include "apps/scene/scene.h"
 #include "apps/utf8.h"
 #include "sim/error.h"
+#include "sim/materials/presets.h"
 #include "sim/materials/table.h"
 #include "sim/mesh_io.h"
 
@@ -34,16 +35,18 @@ void check_name(const std::string& name, const std::string& key, const Places& p
   }
 }
 
-/// One pair of moduli describes a material; with none given it is that of young and poisson.
+/// One set of constants describes a material; with none given it is young and poisson, the preset's or the
+/// usual.
 void resolve_material(sim::MaterialSettings& m, const std::string& path, const Places& places) {
   try {
     sim::check_material(m, places.of(path) + path);
   } catch (const sim::InputError& error) {
     wrong_input(error.what());
   }
-  if (m.mu || m.C) return;
-  if (!m.young) m.young = 1e5;
-  if (!m.poisson) m.poisson = 0.3;
+  if (m.mu || m.C || m.C10) return;
+  const sim::Preset* const preset = sim::find_preset(m.preset, path);
+  if (!m.young) m.young = preset != nullptr ? preset->young : 1e5;
+  if (!m.poisson) m.poisson = preset != nullptr ? preset->poisson : 0.3;
 }
 
 void check_selector(const sim::Selector& s, const std::string& path, const Places& places) {

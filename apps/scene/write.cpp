@@ -32,7 +32,9 @@ public:
       inside.inline_ = about.is_inline;
       inside.path_ = (path_.empty() ? "" : path_ + ".") + about.name;
       elements.visit(i, inside);
-      if (about.is_inline) {
+      if (inline_) {
+        keys_ += fmt::format("{}{} = {{ {} }}", keys_.empty() ? "" : ", ", about.name, inside.keys_);
+      } else if (about.is_inline) {
         keys_ += fmt::format("{} = {{ {} }}\n", about.name, inside.keys_);
       } else {
         tables_ += (list ? fmt::format("\n[[{}]]\n", inside.path_) : fmt::format("\n[{}]\n", inside.path_)) +

@@ -1,8 +1,18 @@
 #include "sim/materials/table.h"
 
+#include <optional>
+
 #include "sim/elasticity.h"
 #include "sim/error.h"
+#include "sim/materials/arap.h"
+#include "sim/materials/corotated.h"
+#include "sim/materials/fibre.h"
+#include "sim/materials/fixed_corotated.h"
+#include "sim/materials/linear_elasticity.h"
+#include "sim/materials/mooney_rivlin.h"
 #include "sim/materials/neo_hookean.h"
+#include "sim/materials/neo_hookean_log.h"
+#include "sim/materials/st_venant_kirchhoff.h"
 #include "sim/materials/stable_neo_hookean.h"
 #include "sim/materials/stable_neo_hookean_log.h"
 
@@ -13,6 +23,7 @@ namespace {
 struct Row {
   std::string name;
   void (*check)(const MaterialSettings&, const std::string& where);
+  std::unique_ptr<const MaterialPoint> (*make_point)(const MaterialSettings&, const std::string& where);
   std::unique_ptr<Energy> (*make)(const TetMesh&, const std::vector<ElasticBody>&,
                                   const std::shared_ptr<const BlockPattern>&);
 };
@@ -20,6 +31,33 @@ struct Row {
 template <EnergyDensity Material>
 void check(const MaterialSettings& settings, const std::string& where) {
   Material::from_settings(settings, where);
+}
+
+template <EnergyDensity Material>
+class PointOf : public MaterialPoint {
+public:
+  PointOf(const MaterialSettings& settings, const std::string& where)
+      : material_(Material::from_settings(settings, where)) {
+    if (settings.fibre) fibre_ = Fibre::from_settings(settings, where);
+  }
+  double psi(const Mat3& F) const override { return material_.psi(F) + (fibre_ ? fibre_->psi(F) : 0.0); }
+  Mat3 dpsi_dF(const Mat3& F) const override {
+    const Mat3 P = material_.dpsi_dF(F);
+    return fibre_ ? Mat3(P + fibre_->dpsi_dF(F)) : P;
+  }
+  Mat9 d2psi_dF2(const Mat3& F) const override {
+    const Mat9 H = material_.d2psi_dF2(F);
+    return fibre_ ? Mat9(H + fibre_->d2psi_dF2(F)) : H;
+  }
+
+private:
+  Material material_;
+  std::optional<Fibre> fibre_;
+};
+
+template <EnergyDensity Material>
+std::unique_ptr<const MaterialPoint> make_point(const MaterialSettings& settings, const std::string& where) {
+  return std::make_unique<PointOf<Material>>(settings, where);
 }
 
 template <EnergyDensity Material>
@@ -39,13 +77,15 @@ std::unique_ptr<Energy> make(const TetMesh& mesh, const std::vector<ElasticBody>
 
 template <EnergyDensity Material>
 Row row() {
-  return {Material::kName, check<Material>, make<Material>};
+  return {Material::kName, check<Material>, make_point<Material>, make<Material>};
 }
 
 /// The explicit table: a new material is one row.
 const std::vector<Row>& table() {
-  static const std::vector<Row> rows = {row<NeoHookean>(), row<StableNeoHookean>(),
-                                        row<StableNeoHookeanLog>()};
+  static const std::vector<Row> rows = {
+      row<NeoHookean>(),   row<NeoHookeanLog>(),     row<StableNeoHookean>(), row<StableNeoHookeanLog>(),
+      row<MooneyRivlin>(), row<StVenantKirchhoff>(), row<Corotated>(),        row<FixedCorotated>(),
+      row<Arap>(),         row<LinearElasticity>()};
   return rows;
 }
 
@@ -68,6 +108,12 @@ std::vector<std::string> material_names() {
 
 void check_material(const MaterialSettings& settings, const std::string& where) {
   find(settings.model, where).check(settings, where);
+  if (settings.fibre) Fibre::from_settings(settings, where);
+}
+
+std::unique_ptr<const MaterialPoint> make_material_point(const MaterialSettings& settings,
+                                                         const std::string& where) {
+  return find(settings.model, where).make_point(settings, where);
 }
 
 std::vector<std::unique_ptr<Energy>> make_elasticity(const TetMesh& mesh,
@@ -81,6 +127,10 @@ std::vector<std::unique_ptr<Energy>> make_elasticity(const TetMesh& mesh,
       if (body.material.model == r.name) of_this_model.push_back(body);
     if (!of_this_model.empty()) terms.push_back(r.make(mesh, of_this_model, pattern));
   }
+  std::vector<ElasticBody> fibrous;
+  for (const ElasticBody& body : bodies)
+    if (body.material.fibre) fibrous.push_back(body);
+  if (!fibrous.empty()) terms.push_back(make<Fibre>(mesh, fibrous, pattern));
   return terms;
 }
 

@@ -60,7 +60,8 @@ inline TetMesh mesh(const std::string& name) {
 }
 
 inline bool has_model(const std::string& truth_name) {
-  return truth_name == "nh_lecture" || truth_name == "snh" || truth_name == "snh_log";
+  return truth_name == "nh_lecture" || truth_name == "snh" || truth_name == "snh_log" ||
+         truth_name == "stvk" || truth_name == "corotated";
 }
 
 /// The truth's names of the energies to ours.
@@ -68,6 +69,8 @@ inline std::string model_name(const std::string& truth_name) {
   if (truth_name == "nh_lecture") return "neo_hookean";
   if (truth_name == "snh") return "stable_neo_hookean";
   if (truth_name == "snh_log") return "stable_neo_hookean_log";
+  if (truth_name == "stvk") return "st_venant_kirchhoff";
+  if (truth_name == "corotated") return "corotated";
   throw std::runtime_error("no material for " + truth_name);
 }
 

@@ -35,6 +35,62 @@ def stable_neo_hookean_log(F):
     return psi(*invariants(F)) - psi(Decimal(3), Decimal(1))
 
 
+def neo_hookean_log(F):
+    I, J = invariants(F)
+    return MU / 2 * (I - 3) - MU * J.ln() + LAMBDA / 2 * J.ln() ** 2
+
+
+def second_invariant(F):
+    """|cof F|^2 = ((tr C)^2 - tr C^2)/2."""
+    C = [sum(F[3 * k + i] * F[3 * k + j] for k in range(3)) for i in range(3) for j in range(3)]
+    return ((C[0] + C[4] + C[8]) ** 2 - sum(x * x for x in C)) / 2
+
+
+def mooney_rivlin(F):
+    I, J = invariants(F)
+    root = (J.ln() * -2 / 3).exp()
+    bulk = LAMBDA + MU * 2 / 3
+    return MU * 4 / 10 * (I * root - 3) + MU / 10 * (second_invariant(F) * root**2 - 3) + bulk / 2 * (J - 1) ** 2
+
+
+def st_venant_kirchhoff(F):
+    E = [(sum(F[3 * k + i] * F[3 * k + j] for k in range(3)) - (i == j)) / 2 for i in range(3) for j in range(3)]
+    return MU * sum(x * x for x in E) + LAMBDA / 2 * (E[0] + E[4] + E[8]) ** 2
+
+
+def sum_of_stretches(F):
+    """s1 + s2 + s3, the last with the sign of J: the largest root of (t^2 - I)^2 = 4 (II + 2 J t), by Newton from above."""
+    I, J = invariants(F)
+    II = second_invariant(F)
+    t = (3 * I).sqrt()
+    while True:
+        step = ((t * t - I) ** 2 - 4 * (II + 2 * J * t)) / (4 * t * (t * t - I) - 8 * J)
+        t -= step
+        if abs(step) < t * Decimal(10) ** -110:
+            return t
+
+
+def arap(F):
+    return MU * (invariants(F)[0] - 2 * sum_of_stretches(F) + 3)
+
+
+def corotated(F):
+    return arap(F) + LAMBDA / 2 * (sum_of_stretches(F) - 3) ** 2
+
+
+def fixed_corotated(F):
+    return arap(F) + LAMBDA / 2 * (invariants(F)[1] - 1) ** 2
+
+
+def linear(F):
+    e = [(F[3 * i + j] + F[3 * j + i]) / 2 - (i == j) for i in range(3) for j in range(3)]
+    return MU * sum(x * x for x in e) + LAMBDA / 2 * (e[0] + e[4] + e[8]) ** 2
+
+
+PSI = [neo_hookean, stable_neo_hookean, stable_neo_hookean_log, neo_hookean_log, mooney_rivlin, st_venant_kirchhoff, arap, corotated,
+       fixed_corotated, linear]
+
+
 def moved(F, *steps):
     F = list(F)
     for k, step in steps:
@@ -81,8 +137,8 @@ for name, F in CASES.items():
     exact = [Decimal(x) for x in F]
     J = invariants(exact)[1]
     models = {}
-    for psi in (neo_hookean, stable_neo_hookean, stable_neo_hookean_log):
-        if psi is not neo_hookean or J > 0:
+    for psi in PSI:
+        if psi not in (neo_hookean, neo_hookean_log, mooney_rivlin) or J > 0:
             models[psi.__name__] = derivatives(psi, exact)
     result[name] = {"F": [float(x) for x in F], "J": float(J), "models": models}
 with open("near_singular.json", "w") as out:

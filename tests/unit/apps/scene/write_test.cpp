@@ -111,11 +111,12 @@ void settle(SceneDesc& s, RandomFill& random) {
   }
   for (BodyDesc& b : s.body) {
     sim::MaterialSettings& m = b.physics.material;
-    m = {m.model, {}, {}, {}, {}, {}, {}};
-    const int kind = random.below(m.model == "neo_hookean" ? 3 : 2);
+    m.young = m.poisson = m.mu = m.lambda = m.C = m.D = m.C10 = m.C01 = m.bulk = std::nullopt;
+    const int kind = random.below(m.model == "neo_hookean" || m.model == "mooney_rivlin" ? 3 : 2);
     if (kind == 0) m.young = 12345.678, m.poisson = 1.0 / 3.0;
     if (kind == 1) m.mu = 0.1, m.lambda = 0.3;
-    if (kind == 2) m.C = 1e-300, m.D = 1e300;
+    if (kind == 2 && m.model == "neo_hookean") m.C = 1e-300, m.D = 1e300;
+    if (kind == 2 && m.model == "mooney_rivlin") m.C10 = 1e-300, m.C01 = 0.0, m.bulk = 1e300;
     for (sim::PinSettings& p : b.physics.pin) {
       p.vertices.push_back(3);
       p.axes.push_back("z");
@@ -195,7 +196,9 @@ TEST(SceneToToml, WritesEveryKeyButOptionalOnesThatAreNotGiven) {
            "\n[time]\nfps = 30.0  # 1/s\nframes = 150\nsubsteps = 1\nintegrator = \"backward_euler\"\n"
            "gravity = [0.0, -9.81, 0.0]  # m/s^2\n",
            "\n[[body]]\nname = \"body0\"\nmesh = \"a.msh\"\ndensity = 1000.0  # kg/m^3\n",
-           "\nmaterial = { model = \"stable_neo_hookean\", young = 100000.0, poisson = 0.3 }\n",
+           "\nmaterial = { model = \"stable_neo_hookean\", preset = \"none\", young = 100000.0, poisson = "
+           "0.3, "
+           "moduli = \"lecture\" }\n",
            "\npin = []\n",
            "\n# orthographic is not given\n",
            "\n[render.raster]\nmultisample = 4\n",

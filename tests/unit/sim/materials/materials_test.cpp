@@ -7,28 +7,16 @@
 
 #include "sim/determinant.h"
 #include "sim/materials/energy_density.h"
-#include "sim/materials/neo_hookean.h"
 #include "sim/materials/parameters.h"
-#include "sim/materials/stable_neo_hookean.h"
-#include "sim/materials/stable_neo_hookean_log.h"
-#include "sim/materials/table.h"
 #include "tests/support/finite_differences.h"
 #include "tests/support/truth.h"
+#include "tests/unit/sim/material_rows.h"
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
 namespace {
 
 constexpr double kYoung = 1e6, kPoisson = 0.3;
-
-template <class Material>
-Material make(double young = kYoung, double poisson = kPoisson) {
-  MaterialSettings settings;
-  settings.model = Material::kName;
-  settings.young = young;
-  settings.poisson = poisson;
-  return Material::from_settings(settings, "test");
-}
 
 Mat3 matrix(const nlohmann::json& row_major) {
   Mat3 F;
@@ -42,18 +30,18 @@ Mat3 random_F(unsigned seed, double amount) {
   return Mat3::Identity() + Mat3::NullaryExpr([&] { return uniform(random); });
 }
 
-/// |psi|, |P|, |H| agree to 1e-12 max(mu, max|.|).
-template <class Material>
-void expect_agrees(const Material& material, const Mat3& F, const nlohmann::json& expected) {
+/// |psi|, |P|, |H| agree to `tolerance` max(mu, max|.|).
+void expect_agrees(const AnyDensity& material, const Mat3& F, const nlohmann::json& expected,
+                   double tolerance = 1e-12) {
   const double mu = lame_from_young(kYoung, kPoisson).mu;
   const double psi = expected.at("psi");
-  EXPECT_NEAR(material.psi(F), psi, 1e-12 * std::max(mu, std::abs(psi)));
+  EXPECT_NEAR(material.psi(F), psi, tolerance * std::max(mu, std::abs(psi)));
   const auto compare = [&](const auto& actual, const nlohmann::json& values, int columns) {
     double largest = mu;
     for (const double value : values) largest = std::max(largest, std::abs(value));
     for (std::size_t k = 0; k < values.size(); ++k) {
       const int row = static_cast<int>(k) / columns, column = static_cast<int>(k) % columns;
-      EXPECT_NEAR(actual(row, column), values.at(k).template get<double>(), 1e-12 * largest)
+      EXPECT_NEAR(actual(row, column), values.at(k).get<double>(), tolerance * largest)
           << row << ' ' << column;
     }
   };
@@ -61,55 +49,51 @@ void expect_agrees(const Material& material, const Mat3& F, const nlohmann::json
   compare(material.d2psi_dF2(F), expected.at("H"), 9);
 }
 
-template <class Material>
-class Materials : public testing::Test {};
-using AllMaterials = testing::Types<NeoHookean, StableNeoHookean, StableNeoHookeanLog>;
-
-struct MaterialName {
-  template <class Material>
-  static std::string GetName(int) {
-    return Material::kName;
-  }
+class Materials : public testing::TestWithParam<MaterialRow> {
+protected:
+  const MaterialRow& row = GetParam();
+  const std::unique_ptr<AnyDensity> made = row.make(kYoung, kPoisson);
+  const AnyDensity& material = *made;
 };
-TYPED_TEST_SUITE(Materials, AllMaterials, MaterialName);
+INSTANTIATE_TEST_SUITE_P(All, Materials, testing::ValuesIn(all_materials()), NameOfRow());
 
-TYPED_TEST(Materials, FulfillTheConcept) { static_assert(EnergyDensity<TypeParam>); }
-
-TYPED_TEST(Materials, MeetTheReference) {
-  const auto material = make<TypeParam>();
+TEST_P(Materials, MeetTheReference) {
   const auto truth = truth::json("1_constitutive/constitutive.json");
   int compared = 0;
   for (const auto& one : truth.at("cases")) {
     for (const auto& [name, expected] : one.at("models").items()) {
-      if (!truth::has_model(name) || truth::model_name(name) != TypeParam::kName) continue;
+      if (!truth::has_model(name) || truth::model_name(name) != row.name) continue;
       SCOPED_TRACE(one.at("name"));
       expect_agrees(material, matrix(one.at("F")), expected);
       ++compared;
     }
   }
-  EXPECT_EQ(compared, 10);
+  EXPECT_EQ(compared, row.is_in_truth ? 10 : 0);
 }
 
-TYPED_TEST(Materials, KeepTheirPrecisionWhereFIsNearlySingularInvertedOrExtreme) {
-  const auto material = make<TypeParam>();
+TEST_P(Materials, KeepTheirPrecisionWhereFIsNearlySingularInvertedOrExtreme) {
   std::ifstream in(data_path("near_singular/near_singular.json"));
   const auto cases = nlohmann::json::parse(in);
   int compared = 0;
   for (const auto& [name, one] : cases.items()) {
     SCOPED_TRACE(name);
     const Mat3 F = matrix(one.at("F"));
-    if (one.at("models").contains(TypeParam::kName)) {
-      expect_agrees(material, F, one.at("models").at(TypeParam::kName));
+    if (one.at("models").contains(row.name)) {
+      // F gives its rotation no better than its rounding, |F| 1e-16, over σ_2 + σ_3: seven digits less for
+      // the needle.
+      const Vec3 stretches = Eigen::JacobiSVD<Mat3>(F).singularValues();
+      const double condition = stretches[0] / (stretches[1] + stretches[2]);
+      expect_agrees(material, F, one.at("models").at(row.name),
+                    row.has_rotation ? std::max(1e-12, 1e-16 * condition) : 1e-12);
       ++compared;
     } else {
       EXPECT_EQ(material.psi(F), std::numeric_limits<double>::infinity());
     }
   }
-  EXPECT_EQ(compared, TypeParam::kNeedsPositiveJ ? 7 : 9);
+  EXPECT_EQ(compared, row.needs_positive_J ? 7 : 9);
 }
 
-TYPED_TEST(Materials, StressIsTheDerivativeOfTheDensityToSecondOrder) {
-  const auto material = make<TypeParam>();
+TEST_P(Materials, StressIsTheDerivativeOfTheDensityToSecondOrder) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     const Mat3 F = random_F(seed, 0.3), dF = random_F(seed + 100, 0.5);
     expect_second_order([&](double t) { return material.psi(F + t * dF); },
@@ -117,8 +101,7 @@ TYPED_TEST(Materials, StressIsTheDerivativeOfTheDensityToSecondOrder) {
   }
 }
 
-TYPED_TEST(Materials, HessianIsTheDerivativeOfTheStressToSecondOrder) {
-  const auto material = make<TypeParam>();
+TEST_P(Materials, HessianIsTheDerivativeOfTheStressToSecondOrder) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     const Mat3 F = random_F(seed, 0.3), dF = random_F(seed + 100, 0.5);
     expect_second_order([&](double t) -> Vec9 { return vec(material.dpsi_dF(F + t * dF)); },
@@ -126,21 +109,20 @@ TYPED_TEST(Materials, HessianIsTheDerivativeOfTheStressToSecondOrder) {
   }
 }
 
-TYPED_TEST(Materials, HessianIsSymmetric) {
-  const Mat9 H = make<TypeParam>().d2psi_dF2(random_F(3, 0.4));
+TEST_P(Materials, HessianIsSymmetric) {
+  const Mat9 H = material.d2psi_dF2(random_F(3, 0.4));
   EXPECT_LT((H - H.transpose()).cwiseAbs().maxCoeff(), 1e-14 * H.cwiseAbs().maxCoeff());
 }
 
 /// Also where singular values coincide or vanish, and turned inside out.
-TYPED_TEST(Materials, ProjectTheHessianAsItsEigenvaluesClampedAtZero) {
-  const auto material = make<TypeParam>();
+TEST_P(Materials, ProjectTheHessianAsItsEigenvaluesClampedAtZero) {
   std::vector<Mat3> cases = {Mat3::Identity(), 0.5 * Mat3::Identity(), Vec3(0.3, 0.3, 2.0).asDiagonal(),
                              Vec3(1, 1, 1e-7).asDiagonal()};
   for (unsigned seed = 0; seed < 30; ++seed) cases.push_back(random_F(seed, 1.0));
-  if (!TypeParam::kNeedsPositiveJ) cases.push_back(Mat3::Zero());
+  if (!row.needs_positive_J) cases.push_back(Mat3::Zero());
   int projected = 0;
   for (const Mat3& F : cases) {
-    if (TypeParam::kNeedsPositiveJ && F.determinant() <= 0.0) continue;
+    if (row.needs_positive_J && F.determinant() <= 0.0) continue;
     const Mat9 H = material.d2psi_dF2(F);
     const Eigen::SelfAdjointEigenSolver<Mat9> eigen(H);
     const Mat9 clamped = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
@@ -150,48 +132,66 @@ TYPED_TEST(Materials, ProjectTheHessianAsItsEigenvaluesClampedAtZero) {
         << F;
     if (eigen.eigenvalues()[0] < -1e-3 * kYoung) ++projected;
   }
-  EXPECT_GT(projected, 10);
+  if (row.is_ever_indefinite) {
+    EXPECT_GT(projected, 10);
+  }
 }
 
-TYPED_TEST(Materials, RestAtTheIdentityAndAnyRotation) {
-  const auto material = make<TypeParam>();
+TEST_P(Materials, RestAtTheIdentityAndAnyRotation) {
   EXPECT_EQ(material.psi(Mat3::Identity()), 0.0);
   EXPECT_LT(material.dpsi_dF(Mat3::Identity()).cwiseAbs().maxCoeff(), 1e-9);
+  if (!row.is_objective) return;
   const Mat3 R = Eigen::AngleAxisd(1.1, Vec3(1, 2, -1).normalized()).toRotationMatrix();
   EXPECT_NEAR(material.psi(R), 0.0, 1e-14 * kYoung);
   EXPECT_LT(material.dpsi_dF(R).cwiseAbs().maxCoeff(), 1e-14 * kYoung);
 }
 
-TYPED_TEST(Materials, AreObjectiveAndIsotropic) {
-  const auto material = make<TypeParam>();
+/// All are objective but linear elasticity, and isotropic but that and fibres; those fail to be by far.
+TEST_P(Materials, AreObjectiveAndIsotropic) {
   const Mat3 F = random_F(1, 0.3), R = Eigen::AngleAxisd(0.7, Vec3(1, -2, 3).normalized()).toRotationMatrix();
-  EXPECT_NEAR(material.psi(R * F), material.psi(F), 1e-13 * kYoung);
-  EXPECT_NEAR(material.psi(F * R), material.psi(F), 1e-13 * kYoung);
-  EXPECT_LT((material.dpsi_dF(R * F) - R * material.dpsi_dF(F)).cwiseAbs().maxCoeff(), 1e-13 * kYoung);
+  const double turned = std::abs(material.psi(R * F) - material.psi(F));
+  const Mat3 stress_turned = material.dpsi_dF(R * F) - R * material.dpsi_dF(F);
+  const double turned_before = std::abs(material.psi(F * R) - material.psi(F));
+  if (row.is_objective) {
+    EXPECT_LT(turned, 1e-13 * kYoung);
+    EXPECT_LT(stress_turned.cwiseAbs().maxCoeff(), 1e-13 * kYoung);
+  } else {
+    EXPECT_GT(turned, 1e-2 * kYoung);
+  }
+  if (row.is_isotropic) {
+    EXPECT_LT(turned_before, 1e-13 * kYoung);
+  } else {
+    EXPECT_GT(turned_before, 1e-2 * kYoung);
+  }
 }
 
 /// At rest ∂²ψ/∂F² : dF = 2 mu eps + lambda tr(eps) I; the lecture's energy has bulk modulus lambda, hence
-/// lambda - 2mu/3 there.
-TYPED_TEST(Materials, LineariseToTheirLameConstants) {
+/// lambda - 2mu/3 there, and as-rigid-as-possible has none of lambda. Fibres pull by 4 k1 a·eps a along a.
+TEST_P(Materials, LineariseToTheirLameConstants) {
   const Lame lame = lame_from_young(kYoung, kPoisson);
-  const double lambda =
-      std::is_same_v<TypeParam, NeoHookean> ? lame.lambda - 2.0 / 3.0 * lame.mu : lame.lambda;
+  double lambda = lame.lambda;
+  if (row.name == "neo_hookean") lambda -= 2.0 / 3.0 * lame.mu;
+  if (row.name == "arap") lambda = 0.0;
   const Mat3 dF = random_F(5, 1.0), eps = 0.5 * (dF + dF.transpose());
-  const Mat3 sigma = 2.0 * lame.mu * eps + lambda * eps.trace() * Mat3::Identity();
-  const Vec9 actual = make<TypeParam>().d2psi_dF2(Mat3::Identity()) * vec(dF);
+  Mat3 sigma = 2.0 * lame.mu * eps + lambda * eps.trace() * Mat3::Identity();
+  if (row.name == "fibre") {
+    const Vec3 a = Vec3(1, 2, -0.5).normalized();
+    sigma = kYoung * a.dot(eps * a) * a * a.transpose();
+  }
+  const Vec9 actual = material.d2psi_dF2(Mat3::Identity()) * vec(dF);
   EXPECT_LT((actual - vec(sigma)).cwiseAbs().maxCoeff(), 1e-14 * kYoung);
 }
 
 /// Homogeneous deformations diag(l1, l2, l3) in closed form; each row starts with what is prescribed.
-TYPED_TEST(Materials, MeetHomogeneousDeformations) {
+TEST_P(Materials, MeetHomogeneousDeformations) {
   const auto truth = truth::json("6_analytic/homogeneous.json");
   int compared = 0;
   for (const auto& set : truth.at("sets")) {
-    const auto material = make<TypeParam>(set.at("E"), set.at("nu"));
+    const auto of_set = row.make(set.at("E"), set.at("nu"));
     for (const auto& [name, tests] : set.at("models").items()) {
-      if (!truth::has_model(name) || truth::model_name(name) != TypeParam::kName) continue;
+      if (!truth::has_model(name) || truth::model_name(name) != row.name) continue;
       const auto check = [&](double l1, double l2, double l3, const std::array<double, 3>& stresses) {
-        const Mat3 P = material.dpsi_dF(Vec3(l1, l2, l3).asDiagonal());
+        const Mat3 P = of_set->dpsi_dF(Vec3(l1, l2, l3).asDiagonal());
         const double scale = std::max(kYoung, P.cwiseAbs().maxCoeff());
         for (int k = 0; k < 3; ++k)
           EXPECT_NEAR(P(k, k), stresses[static_cast<std::size_t>(k)], 1e-11 * scale);
@@ -203,63 +203,21 @@ TYPED_TEST(Materials, MeetHomogeneousDeformations) {
       for (const auto& r : tests.at("hydrostatic")) check(r[0], r[0], r[0], {r[1], r[1], r[1]});
     }
   }
-  EXPECT_EQ(compared, 2 * 4 * 7);
+  EXPECT_EQ(compared, row.is_in_truth ? 2 * 4 * 7 : 0);
 }
 
-TEST(NeoHookean, IsInfiniteWhereJIsNotPositive) {
-  const auto material = make<NeoHookean>();
-  EXPECT_EQ(material.psi(Mat3::Zero()), std::numeric_limits<double>::infinity());
-  EXPECT_EQ(material.psi(Vec3(1, 1, -1).asDiagonal()), std::numeric_limits<double>::infinity());
-}
-
-TEST(NeoHookean, TakesCAndD) {
-  MaterialSettings settings;
-  settings.C = 3.0;
-  settings.D = 5.0;
-  const NeoHookean material = NeoHookean::from_settings(settings, "test");
-  EXPECT_EQ(material.C, 3.0);
-  EXPECT_EQ(material.D, 5.0);
-  const NeoHookean by_lame = make<NeoHookean>();
-  EXPECT_EQ(by_lame.C, lame_from_young(kYoung, kPoisson).mu / 2);
-  EXPECT_EQ(by_lame.D, lame_from_young(kYoung, kPoisson).lambda / 2);
-}
-
-TEST(MaterialTable, NamesItsRows) {
-  EXPECT_EQ(material_names(),
-            (std::vector<std::string>{"neo_hookean", "stable_neo_hookean", "stable_neo_hookean_log"}));
-}
-
-/// What check_material says of a material.
-std::string error_with(const std::function<void(MaterialSettings&)>& change) {
-  MaterialSettings settings;
-  change(settings);
-  return error_of([&] { check_material(settings, "here"); });
-}
-
-TEST(MaterialTable, TellsWhatIsWrong) {
-  using S = MaterialSettings;
-  EXPECT_EQ(error_with([](S&) {}), "no error");
-  EXPECT_EQ(error_with([](S& s) { s.model = "stvk"; }),
-            "here: unknown material model 'stvk'; valid ones are neo_hookean, stable_neo_hookean, "
-            "stable_neo_hookean_log");
-  EXPECT_EQ(error_with([](S& s) { s.young = 0.0; }), "here: young = 0 must be > 0 Pa");
-  EXPECT_EQ(error_with([](S& s) { s.young = INFINITY; }), "here: young = inf must be > 0 Pa");
-  EXPECT_EQ(error_with([](S& s) { s.poisson = 0.5; }), "here: poisson = 0.5 must be in (-1, 0.5)");
-  EXPECT_EQ(error_with([](S& s) { s.poisson = -1.0; }), "here: poisson = -1 must be in (-1, 0.5)");
-  EXPECT_EQ(error_with([](S& s) { s.poisson = NAN; }), "here: poisson = nan must be in (-1, 0.5)");
-  EXPECT_EQ(error_with([](S& s) { s.mu = 1.0; }), "here: mu is given without lambda; give both");
-  EXPECT_EQ(error_with([](S& s) { s.mu = 1.0, s.lambda = 1.0, s.young = 1.0; }),
-            "here: mu and lambda are given beside young or poisson; give one pair");
-  EXPECT_EQ(error_with([](S& s) { s.mu = 0.0, s.lambda = 1.0; }), "here: mu = 0 must be > 0 Pa");
-  EXPECT_EQ(error_with([](S& s) { s.mu = 3.0, s.lambda = -2.0; }), "here: lambda = -2 must be > -2/3 mu");
-  EXPECT_EQ(error_with([](S& s) { s.C = 1.0, s.D = 1.0; }),
-            "here: C and D belong to neo_hookean; give young and poisson, or mu and lambda");
-  EXPECT_EQ(error_with([](S& s) { s.model = "neo_hookean", s.C = -1.0, s.D = 1.0; }),
-            "here: C = -1 must be > 0 Pa");
-  EXPECT_EQ(error_with([](S& s) { s.model = "neo_hookean", s.C = 1.0; }),
-            "here: C is given without D; give both");
-  EXPECT_EQ(error_with([](S& s) { s.model = "neo_hookean", s.poisson = -0.1; }),
-            "here: poisson = -0.1 must be in [0, 0.5) for neo_hookean");
+TEST_P(Materials, AreInfiniteWhereJIsNotPositiveOrFiniteEverywhere) {
+  for (const Mat3& F :
+       {Mat3(Mat3::Zero()), Mat3(Vec3(1, 1, -1).asDiagonal()), Mat3(Vec3(0, 0, 1).asDiagonal())}) {
+    if (row.needs_positive_J) {
+      EXPECT_EQ(material.psi(F), std::numeric_limits<double>::infinity());
+    } else {
+      EXPECT_TRUE(std::isfinite(material.psi(F)));
+      EXPECT_TRUE(material.dpsi_dF(F).allFinite());
+      EXPECT_TRUE(material.d2psi_dF2(F).allFinite());
+      EXPECT_TRUE(material.projected_d2psi_dF2(F).allFinite());
+    }
+  }
 }
 
 TEST(Determinant, IsExactWhereItIsTheSmallDifferenceOfLargeProducts) {
