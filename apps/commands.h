@@ -16,5 +16,6 @@ ExitStatus approve_command(const Options&);    // a run becomes the golden
 ExitStatus preview_command(const Options&);    // what a run is, to look at
 ExitStatus compare_command(const Options&);    // two pictures, one verdict
 ExitStatus info_command(const Options&);       // what a mesh, a scene or a run is
+ExitStatus material_command(const Options&);   // a material's energy, stress and stiffness
 
 }  // namespace lagomorph::apps

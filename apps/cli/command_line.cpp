@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -45,6 +46,9 @@ constexpr CommandRow commands[] = {
      "lagomorph compare golden.png new.png --heat heat.png", compare_command},
     {"info", "FILE", "tell what a mesh, a scene or a run is", "lagomorph info meshes/bunny.msh --json",
      info_command},
+    {"material", "MODEL", "energy, stress and stiffness of a material at one F, or its stress-stretch curves",
+     "lagomorph material neo_hookean --young 1e6 --poisson 0.3 --F \"1.2,0,0,0,1,0,0,0,1\" --json",
+     material_command},
 };
 
 struct OptionRow {
@@ -123,8 +127,36 @@ void apply_ppd(Options& o, const std::string& value) {
   o.pixels_per_degree = n;
 }
 
+/// A finite number.
+double number(const std::string& value, const char* option) {
+  double n = 0;
+  const char* end = value.data() + value.size();
+  const auto [stop, error] = std::from_chars(value.data(), end, n);
+  if (error != std::errc() || stop != end || !std::isfinite(n)) {
+    wrong_input(fmt::format("{} {}: must be a number", option, value));
+  }
+  return n;
+}
+
+/// X,Y,Z,STIFFNESS or X,Y,Z,STIFFNESS,EXPONENT.
+void apply_fibre(Options& o, const std::string& value) {
+  std::vector<double> numbers;
+  for (std::size_t begin = 0; begin <= value.size();) {
+    const std::size_t end = std::min(value.find(',', begin), value.size());
+    numbers.push_back(number(value.substr(begin, end - begin), "--fibre"));
+    begin = end + 1;
+  }
+  if (numbers.size() != 4 && numbers.size() != 5) {
+    wrong_input(fmt::format("--fibre {}: must be X,Y,Z,STIFFNESS or X,Y,Z,STIFFNESS,EXPONENT", value));
+  }
+  o.material.fibre = sim::FibreSettings{.direction = {numbers[0], numbers[1], numbers[2]},
+                                        .stiffness = numbers[3],
+                                        .exponent = numbers.size() == 5 ? numbers[4] : 0.0};
+}
+
 constexpr OptionRow option_rows[] = {
-    {"-o,--out", "DIR", " run simulate render check preview compare ", "where what is made is written",
+    {"-o,--out", "DIR", " run simulate render check preview compare material ",
+     "where what is made is written",
      [](Options& o, const std::string& v) { o.out = non_empty(v, "--out"); }},
     {"--set", "KEY=VALUE", " run simulate render info ",
      "a scene key, as in body.0.density=500; VALUE is TOML or a string", apply_set},
@@ -171,9 +203,35 @@ constexpr OptionRow option_rows[] = {
      [](Options& o, const std::string& v) { o.mend = non_empty(v, "--mend"); }},
     {"--keys", nullptr, " info ", "print the table of scene keys",
      [](Options& o, const std::string&) { o.keys = true; }},
-    {"--quiet", nullptr, " run simulate render check approve preview compare info ",
+    {"--young", "PA", " material ", "Young's modulus, by default 1e5",
+     [](Options& o, const std::string& v) { o.material.young = number(v, "--young"); }},
+    {"--poisson", "X", " material ", "Poisson's ratio, by default 0.3",
+     [](Options& o, const std::string& v) { o.material.poisson = number(v, "--poisson"); }},
+    {"--mu", "PA", " material ", "shear modulus; with --lambda",
+     [](Options& o, const std::string& v) { o.material.mu = number(v, "--mu"); }},
+    {"--lambda", "PA", " material ", "Lamé's first parameter; with --mu",
+     [](Options& o, const std::string& v) { o.material.lambda = number(v, "--lambda"); }},
+    {"--moduli", "HOW", " material ", "of neo_hookean: lecture, or matched to young and poisson",
+     [](Options& o, const std::string& v) { o.material.moduli = v; }},
+    {"--C", "PA", " material ", "of neo_hookean; with --D",
+     [](Options& o, const std::string& v) { o.material.C = number(v, "--C"); }},
+    {"--D", "PA", " material ", "of neo_hookean; with --C",
+     [](Options& o, const std::string& v) { o.material.D = number(v, "--D"); }},
+    {"--C10", "PA", " material ", "of mooney_rivlin; with --C01 and --bulk",
+     [](Options& o, const std::string& v) { o.material.C10 = number(v, "--C10"); }},
+    {"--C01", "PA", " material ", "likewise",
+     [](Options& o, const std::string& v) { o.material.C01 = number(v, "--C01"); }},
+    {"--bulk", "PA", " material ", "likewise",
+     [](Options& o, const std::string& v) { o.material.bulk = number(v, "--bulk"); }},
+    {"--preset", "NAME", " material ", "young and poisson of rubber, jelly, muscle, fat or silicone",
+     [](Options& o, const std::string& v) { o.material.preset = v; }},
+    {"--fibre", "X,Y,Z,PA", " material ",
+     "with fibres along X,Y,Z of this stiffness; a fifth number: exponent", apply_fibre},
+    {"--F", "NUMBERS", " material ", "one deformation gradient, f00,f01,...,f22; without it: curves",
+     [](Options& o, const std::string& v) { o.F = v; }},
+    {"--quiet", nullptr, " run simulate render check approve preview compare info material ",
      "no progress, only errors", [](Options& o, const std::string&) { o.quiet = true; }},
-    {"--json", nullptr, " run simulate render check approve preview compare info ",
+    {"--json", nullptr, " run simulate render check approve preview compare info material ",
      "print the result as JSON on stdout", [](Options& o, const std::string&) { o.json = true; }},
 };
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/settings.h"
+
 namespace lagomorph::apps {
 
 /// Inclusive range of frames, `--frames A..B` or `--frames N`.
@@ -39,6 +41,8 @@ struct Options {
   bool ctest = false;                           // check --ctest
   bool github = false;                          // check --github
   bool calibrate = false;                       // check --calibrate, with --yes into GOLDEN
+  sim::MaterialSettings material;               // material --young ...; its model is the input
+  std::optional<std::string> F;                 // material --F, nine numbers row by row
 };
 
 }  // namespace lagomorph::apps

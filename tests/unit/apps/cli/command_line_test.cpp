@@ -105,11 +105,13 @@ TEST(CommandLine, TellsWhatIsWrong) {
       {{}, "no command given; lagomorph --help lists them"},
       {{"rnu"},
        "unknown command 'rnu'; did you mean 'run'? Commands are run, simulate, render, check, approve, "
-       "preview, compare, info"},
+       "preview, compare, info, material"},
       {{"publish"},
-       "unknown command 'publish'; commands are run, simulate, render, check, approve, preview, compare, info"},
+       "unknown command 'publish'; commands are run, simulate, render, check, approve, preview, compare, "
+       "info, material"},
       {{"--quiet", "run"},
-       "'--quiet' where a command is expected (run, simulate, render, check, approve, preview, compare, info); "
+       "'--quiet' where a command is expected (run, simulate, render, check, approve, preview, compare, "
+       "info, material); "
        "options follow "
        "the "
        "command"},
