@@ -13,6 +13,10 @@ Eigen::Matrix4d corner_masses(double density, double volume, bool lumped) {
   return mass / 20.0 * (Eigen::Matrix4d::Ones() + Eigen::Matrix4d::Identity());
 }
 
+double density_of(const BodyMass& body, int tet) {
+  return body.densities.empty() ? body.density : body.densities[static_cast<std::size_t>(tet)];
+}
+
 Mat12 times_identity(const Eigen::Matrix4d& m) {
   Mat12 M = Mat12::Zero();
   for (int r = 0; r < 4; ++r)
@@ -36,8 +40,8 @@ VecX assemble_mass(const TetMesh& mesh, const std::vector<BodyMass>& bodies, con
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     for (int j = mesh.bodies[b].tets.begin; j < mesh.bodies[b].tets.end; ++j) {
       const Tet& tet = mesh.tets[static_cast<std::size_t>(j)];
-      const Eigen::Matrix4d m =
-          corner_masses(bodies[b].density, tet_volume(gather_corners(X, tet)), bodies[b].lumped);
+      const double density = density_of(bodies[b], j - mesh.bodies[b].tets.begin);
+      const Eigen::Matrix4d m = corner_masses(density, tet_volume(gather_corners(X, tet)), bodies[b].lumped);
       for (int r = 0; r < 4; ++r)
         for (int s = r; s < 4; ++s)
           blocks[pattern.find(std::min(tet[r], tet[s]), std::max(tet[r], tet[s]))] += m(r, s);

@@ -14,6 +14,7 @@ Mat12 element_mass_lumped(double density, double volume);
 struct BodyMass {
   double density = 1000.0;  // [kg/m^3]
   bool lumped = false;
+  std::vector<double> densities = {};  // of each tet; empty: `density`
 };
 
 /// M = Σ_j E_jᵀ M_j E_j. Each of its 3×3 blocks is a multiple of I: the multiples, in the pattern's order.

@@ -16,6 +16,7 @@
 #include "sim/placement.h"
 #include "sim/springs.h"
 #include "sim/text.h"
+#include "sim/tissue.h"
 
 namespace lagomorph::sim {
 
@@ -139,8 +140,13 @@ Model::Model(std::vector<BodyInput> bodies, const Vec3& gravity) {
     append_holds(bodies[b], where, mesh_.vertex_count(), holds, names_of_holds);
     append_springs(settings, body.X, mesh_.vertex_count(), where, springs);
     append(body, name, mesh_);
-    masses.push_back({settings.density, settings.mass == "lumped"});
-    elastic.push_back({mesh_.bodies.back().tets, settings.material, where + ": material"});
+    Tissue tissue = make_tissue(body, settings, where);
+    masses.push_back({settings.density, settings.mass == "lumped", std::move(tissue.densities)});
+    for (ElasticBody& part : tissue.parts) {
+      part.tets.begin += mesh_.bodies.back().tets.begin;
+      part.tets.end += mesh_.bodies.back().tets.begin;
+      elastic.push_back(std::move(part));
+    }
   }
   hold(holds, names_of_holds);
   pattern_ = std::make_shared<const BlockPattern>(mesh_.vertex_count(), mesh_.tets);

@@ -34,6 +34,7 @@ struct MaterialSettings {
   std::optional<double> C10;                 // of mooney_rivlin [Pa], >= 0
   std::optional<double> C01;                 // of mooney_rivlin [Pa], >= 0
   std::optional<double> bulk;                // bulk modulus of mooney_rivlin [Pa], >= 0
+  std::vector<std::array<double, 2>> data;   // of stress_strain: (strain, stress) [1, Pa], nominal
   std::optional<FibreSettings> fibre;
 };
 
@@ -99,6 +100,32 @@ struct LoadSettings : Selector {
   std::vector<std::array<double, 2>> curve;  // (t, factor), linear between, constant outside; none: 1
 };
 
+/// Tets of a body that differ from it: the union of what is given, of centroids at rest, placed.
+struct RegionSettings {
+  std::vector<int> tag;  // physical tags of the mesh
+  std::optional<BoxSelector> box;
+  std::optional<SphereSelector> sphere;
+  std::optional<PlaneSelector> plane;
+  std::optional<double> density;             // [kg/m^3], > 0; none: as it is without the region
+  std::optional<MaterialSettings> material;  // likewise
+  std::string where;                         // prefix of error messages; empty: made of body and number
+};
+
+/// A constant that varies from tet to tet of a body: painted, or through control points by radial basis
+/// functions.
+struct FieldSettings {
+  std::string key;                    // see field_keys()
+  std::string file;                   // what is painted; whoever reads it fills in `painted`
+  std::vector<double> painted;        // a value for each tet, or for each vertex of the body
+  std::vector<Vec3> points;           // control points at rest, placed [m]
+  std::vector<double> values;         // at these
+  std::string kernel = "biharmonic";  // see radial_kernel_names()
+  std::optional<double> radius;       // of kernel gaussian [m], > 0
+  bool logarithm = false;             // log(value) is interpolated, so that it stays > 0
+  bool scale = false;                 // the values multiply what body and regions give; else they replace it
+  std::string where;                  // prefix of error messages; empty: made of body and number
+};
+
 /// X_world = translate + rotate(scale · X_file). The rest shape itself is placed.
 struct BodySettings {
   std::string name;                 // default: body0, body1, ...
@@ -115,6 +142,8 @@ struct BodySettings {
   std::vector<PinSettings> pin;
   std::vector<SpringSettings> spring;
   std::vector<LoadSettings> load;
+  std::vector<RegionSettings> region;  // later ones win
+  std::vector<FieldSettings> field;    // over the regions; later ones win
 };
 
 struct TimeSettings {

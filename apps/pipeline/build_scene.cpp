@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/pipeline/painted_fields.h"
 #include "apps/pipeline/recordings.h"
 #include "sim/error.h"
 #include "sim/mesh_io.h"
@@ -63,7 +64,7 @@ std::vector<sim::Recording> select_and_read_paths(const std::filesystem::path& d
 
 }  // namespace
 
-sim::Model build_model(const SceneDesc& scene, Progress& progress) {
+std::vector<sim::BodyInput> read_bodies(const SceneDesc& scene, Progress& progress) {
   std::vector<sim::BodyInput> bodies;
   for (const BodyDesc& body : scene.body) {
     const std::filesystem::path file = scene.directory / body.mesh;
@@ -78,9 +79,14 @@ sim::Model build_model(const SceneDesc& scene, Progress& progress) {
     if (!body.physics.velocities.empty())
       input.velocities = read_velocities(scene.directory / body.physics.velocities, placed.rows());
     input.recordings = select_and_read_paths(scene.directory, body, placed);
+    for (sim::FieldSettings& field : input.settings.field) read_painted(scene.directory, field);
     bodies.push_back(std::move(input));
   }
-  return {std::move(bodies), scene.time.gravity};
+  return bodies;
+}
+
+sim::Model build_model(const SceneDesc& scene, Progress& progress) {
+  return {read_bodies(scene, progress), scene.time.gravity};
 }
 
 std::vector<sim::Surface> build_surfaces(const SceneDesc& scene, const sim::Model& model,

@@ -15,6 +15,9 @@ namespace lagomorph::apps {
 /// Throws sim::InputError.
 sim::Model build_model(const SceneDesc&, Progress&);
 
+/// The bodies of that model as they come from their files, not placed. Throws sim::InputError.
+std::vector<sim::BodyInput> read_bodies(const SceneDesc&, Progress&);
+
 /// What is drawn of each body: the boundary of its tets or the fine mesh that it carries. Throws
 /// sim::InputError.
 std::vector<sim::Surface> build_surfaces(const SceneDesc&, const sim::Model&, Progress&);

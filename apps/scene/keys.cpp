@@ -10,6 +10,8 @@
 #include "sim/integrator.h"
 #include "sim/materials/presets.h"
 #include "sim/materials/table.h"
+#include "sim/radial_basis.h"
+#include "sim/tissue.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -170,8 +172,47 @@ void visit_material(sim::MaterialSettings& m, KeyVisitor& v) {
          .part = simulation,
          .meaning = "bulk modulus of mooney_rivlin, with C10 and C01"},
         &m.bulk);
+  v.key(
+      {.name = "data",
+       .part = simulation,
+       .meaning = "of stress_strain: [[strain, stress], ...] of uniaxial loading, nominal, Pa; young, where "
+                  "it is given, scales the stress to that modulus at rest"},
+      &m.data);
   v.optional({.name = "fibre", .meaning = "fibres in it, beside the model", .is_inline = true}, m.fibre,
              visit_fibre);
+}
+
+void visit_sphere_and_plane(std::optional<sim::SphereSelector>& sphere,
+                            std::optional<sim::PlaneSelector>& plane, KeyVisitor& v) {
+  v.optional(
+      {.name = "sphere", .meaning = "rest positions inside a sphere", .is_inline = true}, sphere,
+      [](sim::SphereSelector& s, KeyVisitor& inside_sphere) {
+        inside_sphere.key(
+            {.name = "center", .unit = "m", .part = simulation, .meaning = "its centre", .required = true},
+            &s.center);
+        inside_sphere.key({.name = "radius",
+                           .unit = "m",
+                           .bounds = at_least(0),
+                           .part = simulation,
+                           .meaning = "its radius",
+                           .required = true},
+                          &s.radius);
+      });
+  v.optional(
+      {.name = "plane", .meaning = "rest positions X with (X - point) . normal >= 0", .is_inline = true},
+      plane, [](sim::PlaneSelector& s, KeyVisitor& inside_plane) {
+        inside_plane.key({.name = "point",
+                          .unit = "m",
+                          .part = simulation,
+                          .meaning = "a point of the plane",
+                          .required = true},
+                         &s.point);
+        inside_plane.key({.name = "normal",
+                          .part = simulation,
+                          .meaning = "towards the selected side, of any length but 0",
+                          .required = true},
+                         &s.normal);
+      });
 }
 
 void visit_selector(sim::Selector& p, KeyVisitor& v) {
@@ -196,35 +237,69 @@ void visit_selector(sim::Selector& p, KeyVisitor& v) {
          .part = simulation,
          .meaning = "lower fraction of the rest bounding box along +y"},
         &p.bottom);
-  v.optional(
-      {.name = "sphere", .meaning = "rest positions inside a sphere", .is_inline = true}, p.sphere,
-      [](sim::SphereSelector& s, KeyVisitor& inside_sphere) {
-        inside_sphere.key(
-            {.name = "center", .unit = "m", .part = simulation, .meaning = "its centre", .required = true},
-            &s.center);
-        inside_sphere.key({.name = "radius",
-                           .unit = "m",
-                           .bounds = at_least(0),
-                           .part = simulation,
-                           .meaning = "its radius",
-                           .required = true},
-                          &s.radius);
-      });
-  v.optional(
-      {.name = "plane", .meaning = "rest positions X with (X - point) . normal >= 0", .is_inline = true},
-      p.plane, [](sim::PlaneSelector& s, KeyVisitor& inside_plane) {
-        inside_plane.key({.name = "point",
-                          .unit = "m",
-                          .part = simulation,
-                          .meaning = "a point of the plane",
-                          .required = true},
-                         &s.point);
-        inside_plane.key({.name = "normal",
-                          .part = simulation,
-                          .meaning = "towards the selected side, of any length but 0",
-                          .required = true},
-                         &s.normal);
-      });
+  visit_sphere_and_plane(p.sphere, p.plane, v);
+}
+
+void visit_region(sim::RegionSettings& r, KeyVisitor& v) {
+  v.key({.name = "tag",
+         .part = simulation,
+         .meaning = "physical tags of the mesh, one or an array",
+         .single = true},
+        &r.tag);
+  v.key({.name = "box",
+         .unit = "m",
+         .part = simulation,
+         .meaning = "[[x, y, z], [x, y, z]]: centroids at rest from the least to the greatest corner"},
+        &r.box);
+  v.key({.name = "density",
+         .unit = "kg/m^3",
+         .bounds = above(0),
+         .part = simulation,
+         .meaning = "mass density at rest; without it the body's"},
+        &r.density);
+  visit_sphere_and_plane(r.sphere, r.plane, v);
+  v.optional({.name = "material",
+              .meaning = "what the region is made of; what it leaves open is the body's",
+              .is_inline = true},
+             r.material, visit_material);
+}
+
+void visit_field(sim::FieldSettings& f, KeyVisitor& v) {
+  v.key({.name = "key",
+         .part = simulation,
+         .meaning = "the constant that varies",
+         .choices = sim::field_keys,
+         .required = true},
+        &f.key);
+  v.key({.name = "file",
+         .part = simulation,
+         .meaning =
+             "painted: .npy of float64, a value a tet, or a vertex and then averaged over a tet's corners",
+         .file = true},
+        &f.file);
+  v.key({.name = "points",
+         .unit = "m",
+         .part = simulation,
+         .meaning = "instead of a file: [[x, y, z], ...], control points in the body at rest, placed"},
+        &f.points);
+  v.key({.name = "values", .part = simulation, .meaning = "at the points, exactly; smooth between"},
+        &f.values);
+  v.key({.name = "kernel",
+         .part = simulation,
+         .meaning = "radial basis function: biharmonic r (Bickel 2009), triharmonic r^3 with a linear "
+                    "polynomial, gaussian exp(-(r/radius)^2)",
+         .choices = sim::radial_kernel_names},
+        &f.kernel);
+  v.key({.name = "radius", .unit = "m", .bounds = above(0), .part = simulation, .meaning = "of gaussian"},
+        &f.radius);
+  v.key({.name = "logarithm",
+         .part = simulation,
+         .meaning = "the logarithm is interpolated between the points, so that values stay > 0"},
+        &f.logarithm);
+  v.key({.name = "scale",
+         .part = simulation,
+         .meaning = "the values multiply what body and regions give; false: they replace it"},
+        &f.scale);
 }
 
 void visit_pin_key(sim::PinKey& k, KeyVisitor& v) {
@@ -437,6 +512,13 @@ void visit_body(BodyDesc& b, KeyVisitor& v) {
   v.list({.name = "load",
           .meaning = "forces that depend on time alone; on the whole body where nothing is selected"},
          p.load, visit_load);
+  v.list({.name = "region",
+          .meaning =
+              "tets of another material or density; several selectors select the union, later regions win"},
+         p.region, visit_region);
+  v.list(
+      {.name = "field", .meaning = "a constant that varies from tet to tet, over regions; later fields win"},
+      p.field, visit_field);
 }
 
 void visit_camera(render::CameraSettings& c, KeyVisitor& v) {

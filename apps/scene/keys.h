@@ -55,6 +55,7 @@ struct Key {
   const char* default_note = nullptr;               // in words, where the default is not a constant
   bool required = false;                            // must be written where its table is
   bool file = false;                                // a path, relative to the scene; empty: none
+  bool single = false;                              // of an array: one value alone is read, too
 };
 
 /// Bounds and rule in words; empty when every number is valid.
@@ -75,7 +76,8 @@ using Field =
     std::variant<bool*, int*, std::uint32_t*, double*, float*, std::string*, sim::Vec3*, render::Vec2*,
                  render::Vec3*, render::Color*, std::optional<double>*, std::optional<float>*,
                  std::optional<sim::Vec3>*, std::optional<render::Color>*, std::optional<sim::BoxSelector>*,
-                 std::vector<int>*, std::vector<std::string>*, std::vector<std::array<double, 2>>*>;
+                 std::vector<int>*, std::vector<std::string>*, std::vector<std::array<double, 2>>*,
+                 std::vector<double>*, std::vector<sim::Vec3>*>;
 
 class KeyVisitor;
 

@@ -72,6 +72,10 @@ public:
     read(k, path + ".1", *a.get(1), value.max);
   }
   void read(const Key& k, const std::string& path, const toml::node& node, std::vector<int>& value) {
+    if (k.single && node.is_integer()) {
+      value = {integer<int>(k, path, node)};
+      return;
+    }
     const toml::array& a = array(path, node, -1, "integers");
     value.clear();
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -83,6 +87,29 @@ public:
     value.clear();
     for (std::size_t i = 0; i < a.size(); ++i) {
       value.push_back(string(k, fmt::format("{}.{}", path, i), *a.get(i)));
+    }
+  }
+  /// Points of a curve.
+  void read(const Key& k, const std::string& path, const toml::node& node,
+            std::vector<std::array<double, 2>>& value) {
+    const toml::array& a = array(path, node, -1, "pairs of numbers");
+    value.clear();
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      read_elements<2>(k, fmt::format("{}.{}", path, i), *a.get(i), value.emplace_back().data());
+    }
+  }
+  void read(const Key& k, const std::string& path, const toml::node& node, std::vector<double>& value) {
+    const toml::array& a = array(path, node, -1, "numbers");
+    value.clear();
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      value.push_back(number(k, fmt::format("{}.{}", path, i), *a.get(i)));
+    }
+  }
+  void read(const Key& k, const std::string& path, const toml::node& node, std::vector<sim::Vec3>& value) {
+    const toml::array& a = array(path, node, -1, "points, [[x, y, z], ...]");
+    value.clear();
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      read_elements<3>(k, fmt::format("{}.{}", path, i), *a.get(i), value.emplace_back().data());
     }
   }
 

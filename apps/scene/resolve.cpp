@@ -45,7 +45,7 @@ void resolve_material(sim::MaterialSettings& m, const std::string& path, const P
   }
   if (m.mu || m.C || m.C10) return;
   const sim::Preset* const preset = sim::find_preset(m.preset, path);
-  if (!m.young) m.young = preset != nullptr ? preset->young : 1e5;
+  if (!m.young && m.data.empty()) m.young = preset != nullptr ? preset->young : 1e5;
   if (!m.poisson) m.poisson = preset != nullptr ? preset->poisson : 0.3;
 }
 
@@ -108,6 +108,44 @@ void resolve_boundary(BodyDesc& body, double fps, const std::string& path, const
   each(p.load, "load", body.load_places, check_load);
   for (sim::PinSettings& pin : p.pin) {
     if (!pin.path.empty() && !pin.path_fps) pin.path_fps = fps;
+  }
+}
+
+/// What a region's material leaves open is the body's, which is resolved.
+void complete_material(sim::MaterialSettings& m, const sim::MaterialSettings& body, const std::string& path,
+                       const Places& places) {
+  const bool has_preset = places.has(path + ".preset");
+  if (!places.has(path + ".model")) m.model = body.model;
+  if (!places.has(path + ".moduli")) m.moduli = body.moduli;
+  if (!m.fibre) m.fibre = body.fibre;
+  if (m.mu || m.lambda || m.C || m.D || m.C10 || m.C01 || m.bulk) return;
+  if (!m.young && !m.poisson && m.data.empty() && !has_preset) {
+    m.mu = body.mu;
+    m.lambda = body.lambda;
+    m.C = body.C;
+    m.D = body.D;
+    m.C10 = body.C10;
+    m.C01 = body.C01;
+    m.bulk = body.bulk;
+  }
+  if (has_preset) return;
+  if (!m.young && m.data.empty()) m.young = body.young;
+  if (!m.poisson) m.poisson = body.poisson;
+  if (m.data.empty() && m.model == body.model) m.data = body.data;
+}
+
+void resolve_regions(sim::BodySettings& body, const std::string& path, const Places& places) {
+  for (std::size_t j = 0; j < body.region.size(); ++j) {
+    const std::string at = fmt::format("{}.region.{}", path, j);
+    sim::RegionSettings& region = body.region[j];
+    region.where = places.of(at) + at;
+    if (!region.material) continue;
+    complete_material(*region.material, body.material, at + ".material", places);
+    resolve_material(*region.material, at + ".material", places);
+  }
+  for (std::size_t j = 0; j < body.field.size(); ++j) {
+    const std::string at = fmt::format("{}.field.{}", path, j);
+    body.field[j].where = places.of(at) + at;
   }
 }
 
@@ -189,6 +227,7 @@ void resolve_scene(SceneDesc& scene, const Places& places, const std::string& st
     }
     if (body.mesh.empty()) wrong_input(fmt::format("{}{}.mesh is empty", places.of(path + ".mesh"), path));
     resolve_material(body.physics.material, path + ".material", places);
+    resolve_regions(body.physics, path, places);
     resolve_boundary(body, scene.time.fps, path, places);
   }
   check_camera(scene.camera, places);
@@ -204,6 +243,8 @@ void check_scene_files(const SceneDesc& scene, const Places& places) {
     check_file(scene, body.velocities, path + ".velocities", {".npy"}, places);
     for (std::size_t j = 0; j < body.pin.size(); ++j)
       check_file(scene, body.pin[j].path, fmt::format("{}.pin.{}.path", path, j), {".npy"}, places);
+    for (std::size_t j = 0; j < body.field.size(); ++j)
+      check_file(scene, body.field[j].file, fmt::format("{}.field.{}.file", path, j), {".npy"}, places);
   }
 }
 

@@ -33,11 +33,9 @@ std::string text(const render::Color& value) { return array_text(value); }
 std::string text(const std::vector<int>& value) { return array_text(value); }
 std::string text(const std::vector<std::string>& value) { return array_text(value); }
 std::string text(const std::array<double, 2>& value) { return array_text(value); }
-std::string text(const std::vector<std::array<double, 2>>& value) {
-  std::string all;
-  for (const auto& pair : value) all += (all.empty() ? "" : ", ") + text(pair);
-  return fmt::format("[{}]", all);
-}
+std::string text(const std::vector<std::array<double, 2>>& value) { return array_text(value); }
+std::string text(const std::vector<double>& value) { return array_text(value); }
+std::string text(const std::vector<sim::Vec3>& value) { return array_text(value); }
 std::string text(const sim::BoxSelector& box) {
   return fmt::format("[{}, {}]", text(box.min), text(box.max));
 }

@@ -15,6 +15,7 @@
 #include "sim/materials/st_venant_kirchhoff.h"
 #include "sim/materials/stable_neo_hookean.h"
 #include "sim/materials/stable_neo_hookean_log.h"
+#include "sim/materials/stress_strain.h"
 
 namespace lagomorph::sim {
 
@@ -85,7 +86,7 @@ const std::vector<Row>& table() {
   static const std::vector<Row> rows = {
       row<NeoHookean>(),   row<NeoHookeanLog>(),     row<StableNeoHookean>(), row<StableNeoHookeanLog>(),
       row<MooneyRivlin>(), row<StVenantKirchhoff>(), row<Corotated>(),        row<FixedCorotated>(),
-      row<Arap>(),         row<LinearElasticity>()};
+      row<Arap>(),         row<LinearElasticity>(),  row<StressStrain>()};
   return rows;
 }
 
@@ -107,7 +108,10 @@ std::vector<std::string> material_names() {
 }
 
 void check_material(const MaterialSettings& settings, const std::string& where) {
-  find(settings.model, where).check(settings, where);
+  const Row& model = find(settings.model, where);
+  if (!settings.data.empty() && settings.model != StressStrain::kName)
+    throw InputError(where + ": data belong to " + StressStrain::kName + ", not to " + settings.model);
+  model.check(settings, where);
   if (settings.fibre) Fibre::from_settings(settings, where);
 }
 

@@ -1,5 +1,6 @@
 #include "tests/unit/sim/material_rows.h"
 
+#include <type_traits>
 #include <utility>
 
 #include "sim/elasticity.h"
@@ -14,6 +15,7 @@
 #include "sim/materials/st_venant_kirchhoff.h"
 #include "sim/materials/stable_neo_hookean.h"
 #include "sim/materials/stable_neo_hookean_log.h"
+#include "sim/materials/stress_strain.h"
 
 namespace lagomorph::sim {
 
@@ -27,6 +29,8 @@ Material material_with(double young, double poisson) {
   settings.poisson = poisson;
   settings.fibre =
       FibreSettings{.direction = Vec3(1, 2, -0.5), .stiffness = young, .exponent = 1.5, .compression = true};
+  if constexpr (std::is_same_v<Material, StressStrain>)
+    settings.data = {{-0.7, -6.0}, {-0.3, -0.7}, {0.0, 0.0}, {0.4, 0.6}, {1.5, 4.0}};
   return Material::from_settings(settings, "test");
 }
 
@@ -116,6 +120,7 @@ const std::vector<MaterialRow>& all_materials() {
                                                 with_rotation<FixedCorotated>(),
                                                 with_rotation<Arap>(),
                                                 linear(),
+                                                row<StressStrain>(),
                                                 fibre()};
   return rows;
 }
