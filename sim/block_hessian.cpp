@@ -45,6 +45,10 @@ BlockHessian::BlockHessian(std::shared_ptr<const BlockPattern> pattern)
 
 void BlockHessian::set_zero() { std::fill(values_.begin(), values_.end(), 0.0); }
 
+void BlockHessian::add(double scale, const BlockHessian& A) {
+  for (std::size_t i = 0; i < values_.size(); ++i) values_[i] += scale * A.values_[i];
+}
+
 void BlockHessian::set_blend(const BlockHessian& A, const BlockHessian& B, double t) {
   for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = (1.0 - t) * A.values_[i] + t * B.values_[i];
 }

@@ -40,6 +40,8 @@ public:
   const BlockPattern& pattern() const { return *pattern_; }
   const std::shared_ptr<const BlockPattern>& shared_pattern() const { return pattern_; }
   void set_zero();
+  /// H += scale · A, on the same pattern.
+  void add(double scale, const BlockHessian& A);
   /// (1 - t) A + t B, block by block; on the same pattern.
   void set_blend(const BlockHessian& A, const BlockHessian& B, double t);
   Eigen::Map<Mat3> block(int k) {

@@ -1,5 +1,5 @@
-#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "sim/integrators.h"
@@ -16,6 +16,18 @@ VecX mean_load(const Model& model, double t, double h) {
   return 0.5 * (model.load_force(t) + model.load_force(t + h));
 }
 
+/// The velocity u = rate/h (q1 - q_still) that is damped, and where. Damping forces -C(q*) u with a C that is
+/// constant within the step add a convex quadratic to Φ, and so the step stays a minimization and its loss
+/// h uᵀ C u is never negative. q* is predicted along q̇0, off by h²/2 q̈: that keeps the order of each scheme,
+/// and since u is the velocity at the time of q* up to h², viscosity damps rotations only by the fourth power
+/// of h. To iterate on C(q*) would gain nothing more in order.
+struct Damped {
+  double rate = 1.0;
+  double at = 0.5;  // q* = q0 + at h q̇0
+  VecX (*q_still)(const State&) = [](const State& s) -> VecX { return s.q; };
+};
+constexpr Damped kDampedInTheMiddle = {};
+
 /// A fully implicit scheme: the potential whose minimum is the end of the step, and the velocity there.
 struct Scheme {
   const char* name;
@@ -27,6 +39,7 @@ struct Scheme {
   /// q1 - q0 = h (q̇0 + q̇1)/2: driven coordinates would swing about their velocity for ever, so they are given
   /// that of their motion, and M (q̇1 - q̇0) has it.
   bool gives_driven_velocity = false;
+  Damped damped = kDampedInTheMiddle;
 };
 
 /// M (q1 - q0 - h q̇0) = -h² ∂V/∂q(q1), q̇1 = (q1 - q0)/h. (lecture, "Backward Euler")
@@ -62,6 +75,9 @@ constexpr Scheme kBdf2 = {
       return (3.0 * (q1 - s.q) - (s.q - s.history.front().q)) / (2.0 * h);
     },
     .load = load_at_end,
+    .damped = {.rate = 1.5,
+               .at = 1.0,
+               .q_still = [](const State& s) -> VecX { return s.q + (s.q - s.history.front().q) / 3.0; }},
 };
 
 /// M (q̇1 - q̇0) = -h ∂V/∂q((q0 + q1)/2), q1 - q0 = h (q̇0 + q̇1)/2: second order, symplectic, keeps momentum
@@ -108,7 +124,9 @@ constexpr Scheme kTrapezoidal = {
 class ImplicitIntegrator : public Integrator {
 public:
   ImplicitIntegrator(const Scheme& scheme, const SolverSettings& settings, const Model& model)
-      : scheme_(scheme), newton_(model, settings) {}
+      : scheme_(scheme), newton_(model, settings) {
+    if (!model.damping().is_none()) C_.emplace(model.pattern());
+  }
 
   std::string_view name() const override { return scheme_.name; }
   int history_levels() const override { return scheme_.history_levels; }
@@ -122,16 +140,23 @@ public:
     if (load.size() != 0)
       phi.f = phi.f.size() != 0 ? VecX(phi.f + scheme.weight * load) : VecX(scheme.weight * load);
     if (held.is_driven()) drive(scheme, held, state, h, phi);
-    VecX q = first_guess(model, state, h);
-    const NewtonReport newton = newton_.minimize(model, phi, q);
+    if (C_) damp(scheme, model, state, h, phi);
+    VecX q = moved_on(model, state, h);  // a function of the state alone: a resumed run takes the same way
+    NewtonReport newton = newton_.minimize(model, phi, q);
     StepReport report{newton.status, newton.iterations, newton.residual, h};
+    report.iterates = std::move(newton.iterates);
     if (!is_good(report.status)) return report;
     if (phi.a != 1.0 && !is_defined(model, q)) {
       report.status = StepStatus::not_finite;
     } else {
       report.account(held, newton.balance / scheme.weight, load, q - state.q);
+      if (C_) {
+        const VecX u = scheme.damped.rate / h * (q - phi.q_still);
+        report.damping_loss = h * u.dot(C_->times(u));
+      }
       VecX qdot1 = scheme.velocity(state, q, h);
       if (scheme.gives_driven_velocity) held.set_velocities(state.t + h, qdot1);
+      report.error = error_estimate(held.pins(), scheme, state, qdot1, h);
       advance(state, std::move(q), std::move(qdot1), h);
     }
     return report;
@@ -165,13 +190,23 @@ private:
       if (held.pins().is_held(dof)) phi.q_predicted[dof] = q_predicted[dof];
   }
 
-  /// A function of the state alone, so that a resumed run takes the same way: on along the velocity, as far
-  /// as V is defined.
-  static VecX first_guess(const Model& model, const State& state, double h) {
-    const VecX dq = h * state.qdot;
-    double step = 1.0;
-    for (const auto& term : model.energies()) step = std::min(step, term->max_step(state.q, dq));
-    return state.q + step * dq;
+  void damp(const Scheme& scheme, const Model& model, const State& state, double h,
+            IncrementalPotential& phi) {
+    const Damped& damped = scheme.damped;
+    model.damping().assemble(model.energies(), moved_on(model, state, damped.at * h), *C_);
+    phi.C = &*C_;
+    phi.c = scheme.weight * damped.rate / h;
+    phi.q_still = damped.q_still(state);
+  }
+
+  /// Of positions at the end of a step. [m] Backward Euler's is h²/2 q̈, with q̈ from the velocities at both
+  /// ends; BDF2's is 2/9 h³ d³q/dt³, from three velocities. The others' takes more than a step to tell.
+  static std::optional<double> error_estimate(const Pins& pins, const Scheme& scheme, const State& state,
+                                              const VecX& qdot1, double h) {
+    if (scheme.velocity == kBackwardEuler.velocity) return 0.5 * h * largest_free(pins, qdot1 - state.qdot);
+    if (scheme.velocity == kBdf2.velocity)
+      return 2.0 / 9.0 * h * largest_free(pins, qdot1 - 2.0 * state.qdot + state.history.front().qdot);
+    return std::nullopt;
   }
 
   void advance(State& state, VecX q1, VecX qdot1, double h) const {
@@ -186,20 +221,25 @@ private:
 
   Scheme scheme_;
   Newton newton_;
+  std::optional<BlockHessian> C_;  // of the step, when anything is damped
 };
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_backward_euler(const SolverSettings& settings, const Model& model) {
+std::unique_ptr<Integrator> make_backward_euler(const TimeSettings&, const SolverSettings& settings,
+                                                const Model& model) {
   return std::make_unique<ImplicitIntegrator>(kBackwardEuler, settings, model);
 }
-std::unique_ptr<Integrator> make_bdf2(const SolverSettings& settings, const Model& model) {
+std::unique_ptr<Integrator> make_bdf2(const TimeSettings&, const SolverSettings& settings,
+                                      const Model& model) {
   return std::make_unique<ImplicitIntegrator>(kBdf2, settings, model);
 }
-std::unique_ptr<Integrator> make_implicit_midpoint(const SolverSettings& settings, const Model& model) {
+std::unique_ptr<Integrator> make_implicit_midpoint(const TimeSettings&, const SolverSettings& settings,
+                                                   const Model& model) {
   return std::make_unique<ImplicitIntegrator>(kImplicitMidpoint, settings, model);
 }
-std::unique_ptr<Integrator> make_trapezoidal(const SolverSettings& settings, const Model& model) {
+std::unique_ptr<Integrator> make_trapezoidal(const TimeSettings&, const SolverSettings& settings,
+                                             const Model& model) {
   return std::make_unique<ImplicitIntegrator>(kTrapezoidal, settings, model);
 }
 

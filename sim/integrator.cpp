@@ -1,7 +1,9 @@
 #include "sim/integrator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "sim/error.h"
 #include "sim/integrators.h"
@@ -9,27 +11,36 @@
 
 namespace lagomorph::sim {
 
+namespace {
+
+constexpr std::array<std::pair<StepStatus, std::string_view>, 6> kStatuses = {{
+    {StepStatus::converged, "converged"},
+    {StepStatus::rounding_floor, "rounding_floor"},
+    {StepStatus::not_converged, "not_converged"},
+    {StepStatus::not_positive, "not_positive"},
+    {StepStatus::not_finite, "not_finite"},
+    {StepStatus::inaccurate, "inaccurate"},
+}};
+
+}  // namespace
+
 std::string_view to_string(StepStatus status) {
-  switch (status) {
-    case StepStatus::converged:
-      return "converged";
-    case StepStatus::rounding_floor:
-      return "rounding_floor";
-    case StepStatus::not_converged:
-      return "not_converged";
-    case StepStatus::not_positive:
-      return "not_positive";
-    case StepStatus::not_finite:
-      return "not_finite";
-  }
+  for (const auto& [value, word] : kStatuses)
+    if (value == status) return word;
   return "unknown";
+}
+
+StepStatus step_status(std::string_view text) {
+  for (const auto& [value, word] : kStatuses)
+    if (word == text) return value;
+  throw InputError("unknown status of a step '" + std::string(text) + "'");
 }
 
 namespace {
 
 struct Row {
   const char* name;
-  std::unique_ptr<Integrator> (*make)(const SolverSettings&, const Model&);
+  std::unique_ptr<Integrator> (*make)(const TimeSettings&, const SolverSettings&, const Model&);
 };
 
 /// The explicit table: a new integrator is one row.
@@ -40,6 +51,7 @@ constexpr Row kTable[] = {
     {"implicit_midpoint", make_implicit_midpoint},
     {"trapezoidal", make_trapezoidal},
     {"symplectic_euler", make_symplectic_euler},
+    {"static", make_static},
 };
 
 void check(const TimeSettings& time) {
@@ -47,6 +59,8 @@ void check(const TimeSettings& time) {
     throw InputError("time.fps = " + short_number(time.fps) + " must be > 0");
   if (time.substeps < 1)
     throw InputError("time.substeps = " + std::to_string(time.substeps) + " must be >= 1");
+  if (time.error_tolerance && !(*time.error_tolerance > 0.0))
+    throw InputError("time.error_tolerance = " + short_number(*time.error_tolerance) + " must be > 0 m");
 }
 
 }  // namespace
@@ -62,6 +76,19 @@ bool is_defined(const Model& model, const VecX& q) {
                      [&](const auto& term) { return std::isfinite(term->value(q)); });
 }
 
+VecX moved_on(const Model& model, const State& state, double h) {
+  const VecX dq = h * state.qdot;
+  double step = 1.0;
+  for (const auto& term : model.energies()) step = std::min(step, term->max_step(state.q, dq));
+  return state.q + step * dq;
+}
+
+double largest_free(const Pins& pins, const VecX& d) {
+  VecX free = d;
+  pins.clear_pinned(free);
+  return std::sqrt(as_points(free).rowwise().squaredNorm().maxCoeff());
+}
+
 std::vector<std::string> integrator_names() {
   std::vector<std::string> names;
   for (const Row& row : kTable) names.emplace_back(row.name);
@@ -73,7 +100,7 @@ std::unique_ptr<Integrator> make_integrator(const TimeSettings& time, const Solv
   check(time);
   std::string names;
   for (const Row& row : kTable) {
-    if (time.integrator == row.name) return row.make(solver, model);
+    if (time.integrator == row.name) return row.make(time, solver, model);
     names += (names.empty() ? "" : ", ") + std::string(row.name);
   }
   throw InputError("unknown time.integrator '" + time.integrator + "'; valid ones are " + names);
@@ -81,33 +108,90 @@ std::unique_ptr<Integrator> make_integrator(const TimeSettings& time, const Solv
 
 namespace {
 
-/// Advances by h, in two halves when it does not converge in one. Returns whether it got there; adds to the
-/// report.
-bool advance(const Model& model, Integrator& integrator, const SolverSettings& solver, double h, int depth,
-             State& state, FrameReport& report) {
-  const StepReport step = integrator.step(model, state, h);
+/// What steps are taken with.
+struct Stepping {
+  const Model& model;
+  Integrator& integrator;
+  const TimeSettings& time;
+  const SolverSettings& solver;
+};
+
+/// The report of two steps as one.
+StepReport joined(const StepReport& a, const StepReport& b) {
+  StepReport both = is_good(b.status) && a.status == StepStatus::rounding_floor ? a : b;
+  both.newton_iterations = a.newton_iterations + b.newton_iterations;
+  both.residual = std::max(a.residual, b.residual);
+  both.h = a.h + b.h;
+  both.steps = a.steps + b.steps;
+  both.damping_loss = a.damping_loss + b.damping_loss;
+  both.work_pins = a.work_pins + b.work_pins;
+  both.work_loads = a.work_loads + b.work_loads;
+  both.pin_forces = b.pin_forces;
+  return both;
+}
+
+/// One step with its log.
+StepReport take_step(const Stepping& with, double h, State& state, FrameReport& report) {
+  const double t = state.t;
+  StepReport step = with.integrator.step(with.model, state, h);
   report.newton_iterations += step.newton_iterations;
+  if (!step.iterates.empty()) report.newton.push_back({t, h, step.status, std::move(step.iterates)});
+  return step;
+}
+
+/// A step whose error is known where it has to be: by the scheme's own estimate, or by halves, which are
+/// kept.
+StepReport take_measured_step(const Stepping& with, double h, State& state, FrameReport& report) {
+  const State before = state;
+  StepReport step = take_step(with, h, state, report);
+  if (!with.time.error_tolerance || !is_good(step.status)) return step;
+  if (!step.error) {
+    const VecX whole = std::exchange(state, before).q;
+    step = take_step(with, 0.5 * h, state, report);
+    if (is_good(step.status)) step = joined(step, take_step(with, 0.5 * h, state, report));
+    if (is_good(step.status)) step.error = largest_free(with.model.held(before.t + 0.5 * h).pins(), whole - state.q) / 3.0;
+  }
+  if (is_good(step.status) && !(*step.error <= *with.time.error_tolerance))
+    step.status = StepStatus::inaccurate;
+  if (!is_good(step.status)) state = before;
+  return step;
+}
+
+std::string reason_of(const Stepping& with, const StepReport& step, const State& state, int depth) {
+  std::string how =
+      "residual " + short_number(step.residual) + " (tolerance " + short_number(with.solver.tolerance) + ")";
+  if (step.status == StepStatus::inaccurate)
+    how = "an estimated error of " + short_number(*step.error) + " m (tolerance " +
+          short_number(*with.time.error_tolerance) + ")";
+  return "frame " + std::to_string(state.frame + 1) + ": " + with.integrator.step_name() + " of " +
+         short_number(step.h) + " s at t = " + short_number(state.t) + " s ended " +
+         std::string(to_string(step.status)) + " after " + std::to_string(step.newton_iterations) +
+         " Newton iterations with " + how + ", halved " + std::to_string(depth) + " times";
+}
+
+/// Advances by h, in two halves when one step will not do. Returns whether it got there; adds to the report.
+bool advance(const Stepping& with, double h, int depth, State& state, FrameReport& report) {
+  const StepReport step = take_measured_step(with, h, state, report);
   if (is_good(step.status)) {
     report.steps += step.steps;
     report.halvings = std::max(report.halvings, depth);
     report.residual = std::max(report.residual, step.residual);
+    report.damping_loss += step.damping_loss;
+    if (with.time.error_tolerance) report.error = std::max(report.error, *step.error);
     if (step.status == StepStatus::rounding_floor) report.hit_rounding_floor = true;
     report.pin_forces = step.pin_forces;
     report.work_pins += step.work_pins;
     report.work_loads += step.work_loads;
     return true;
   }
-  if (depth < solver.max_halvings)
-    return advance(model, integrator, solver, 0.5 * h, depth + 1, state, report) &&
-           advance(model, integrator, solver, 0.5 * h, depth + 1, state, report);
+  ++report.rejected;
+  if (depth < with.solver.max_halvings)
+    return advance(with, 0.5 * h, depth + 1, state, report) &&
+           advance(with, 0.5 * h, depth + 1, state, report);
   report.status = step.status;
   report.halvings = depth;
   report.residual = step.residual;
-  report.reason = "frame " + std::to_string(state.frame + 1) + ": a step of " + short_number(h) +
-                  " s at t = " + short_number(state.t) + " s ended " + std::string(to_string(step.status)) +
-                  " after " + std::to_string(step.newton_iterations) + " Newton iterations with residual " +
-                  short_number(step.residual) + " (tolerance " + short_number(solver.tolerance) +
-                  "), halved " + std::to_string(depth) + " times";
+  report.reason = reason_of(with, step, state, depth);
   return false;
 }
 
@@ -119,7 +203,7 @@ FrameReport advance_frame(const Model& model, Integrator& integrator, const Time
   const State before = state;
   const double h = 1.0 / (time.fps * time.substeps);
   for (int i = 0; i < time.substeps; ++i) {
-    if (advance(model, integrator, solver, h, 0, state, report)) continue;
+    if (advance({model, integrator, time, solver}, h, 0, state, report)) continue;
     state = before;
     return report;
   }

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <optional>
 
 #include "sim/integrators.h"
 #include "sim/linear_solver.h"
@@ -13,13 +14,15 @@ constexpr int kMaxRefinements = 5;
 
 /// (M + h² K) q̇1 = M q̇0 - h ∂V/∂q, q1 = q0 + h q̇1, with K = ∂²V/∂q² and ∂V/∂q at q0: the first Newton
 /// iteration of backward Euler from q0 on; loads at the end of the step. K is exact, never projected.
-/// (lecture, "Linearly implicit Euler")
+/// (lecture, "Linearly implicit Euler") Damping adds h C, with the same C as in backward Euler.
 class LinearlyImplicitEuler : public Integrator {
 public:
   LinearlyImplicitEuler(const SolverSettings& settings, const Model& model)
       : tolerance_((check(settings), settings.tolerance)),
         linear_solver_(settings.blas_threads),
-        A_(model.pattern()) {}
+        A_(model.pattern()) {
+    if (!model.damping().is_none()) C_.emplace(model.pattern());
+  }
 
   std::string_view name() const override { return "linearly_implicit_euler"; }
   int history_levels() const override { return 0; }
@@ -41,6 +44,8 @@ public:
     if (!is_defined(model, q1)) report.status = StepStatus::not_finite;
     if (!is_good(report.status)) return report;
     report.account(held, (A_.times(qdot1) - b) / h, load, q1 - state.q);
+    if (C_) report.damping_loss = h * qdot1.dot(C_->times(qdot1));
+    report.error = 0.5 * h * largest_free(held.pins(), qdot1 - state.qdot);
     state.q = std::move(q1);
     state.qdot = std::move(qdot1);
     state.t += h;
@@ -54,7 +59,7 @@ private:
     pins_ = &pins;
   }
 
-  /// Makes A = M + h² K and returns M q̇0 - h ∂V/∂q + h f. [kg m/s]
+  /// Makes A = M + h² K + h C and returns M q̇0 - h ∂V/∂q + h f. [kg m/s]
   VecX assemble(const Model& model, const State& state, const VecX& load, double h) {
     VecX g = VecX::Zero(state.q.size());
     A_.set_zero();
@@ -64,6 +69,10 @@ private:
     }
     model.add_mass(1.0, A_);
     if (load.size() != 0) g -= load;
+    if (C_) {
+      model.damping().assemble(model.energies(), moved_on(model, state, 0.5 * h), *C_);
+      A_.add(h, *C_);
+    }
     return model.mass_times(state.qdot) - h * g;
   }
 
@@ -111,11 +120,13 @@ private:
   LinearSolver linear_solver_;
   const Pins* pins_ = nullptr;  // that it is analyzed for
   BlockHessian A_;
+  std::optional<BlockHessian> C_;  // of the step, when anything is damped
 };
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_linearly_implicit_euler(const SolverSettings& settings, const Model& model) {
+std::unique_ptr<Integrator> make_linearly_implicit_euler(const TimeSettings&, const SolverSettings& settings,
+                                                         const Model& model) {
   return std::make_unique<LinearlyImplicitEuler>(settings, model);
 }
 

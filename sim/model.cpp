@@ -15,6 +15,7 @@
 #include "sim/materials/table.h"
 #include "sim/placement.h"
 #include "sim/springs.h"
+#include "sim/start.h"
 #include "sim/text.h"
 #include "sim/tissue.h"
 
@@ -125,6 +126,7 @@ Model::Model(std::vector<BodyInput> bodies, const Vec3& gravity) {
   std::vector<Hold> holds;
   std::vector<std::string> names_of_holds;
   std::vector<Springs::Spring> springs;
+  std::vector<DampingSettings> damping;
   std::set<std::string> names;
   mesh_.X.resize(0, 3);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -147,6 +149,7 @@ Model::Model(std::vector<BodyInput> bodies, const Vec3& gravity) {
       part.tets.end += mesh_.bodies.back().tets.begin;
       elastic.push_back(std::move(part));
     }
+    damping.push_back(settings.damping);
   }
   hold(holds, names_of_holds);
   pattern_ = std::make_shared<const BlockPattern>(mesh_.vertex_count(), mesh_.tets);
@@ -157,6 +160,8 @@ Model::Model(std::vector<BodyInput> bodies, const Vec3& gravity) {
   if (!springs.empty()) energies_.push_back(std::make_unique<Springs>(std::move(springs)));
   energies_.push_back(std::make_unique<Gravity>(f_g_));
   gravity_ = energies_.back().get();
+  damping_ = Damping(mesh_, damping, mass_blocks_, pattern_);
+  q0_ = Eigen::Map<const VecX>(mesh_.X.data(), mesh_.X.size());
   qdot0_.resize(3 * mesh_.vertex_count());
   const Eigen::VectorXd mass = vertex_mass_ * Eigen::VectorXd::Ones(mesh_.vertex_count());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -167,10 +172,14 @@ Model::Model(std::vector<BodyInput> bodies, const Vec3& gravity) {
     const Points v =
         start_velocities(bodies[b].settings, X, bodies[b].velocities, mass.segment(first, count), where);
     qdot0_.segment(3 * first, 3 * count) = Eigen::Map<const VecX>(v.data(), v.size());
+    set_start(bodies[b].settings, body.vertices, mesh_.X, pins(), where, q0_);
     loads_.append(mesh_, body, bodies[b].settings, where);
   }
   pins().clear_pinned(qdot0_);
   held_.front().set_velocities(0.0, qdot0_);
+  for (const auto& term : energies_)
+    require(std::isfinite(term->value(q0_)), "a body starts with tets inside out, where the material " +
+                                                 std::string(term->name()) + " is not defined");
 }
 
 /// One Held for each span of time between releases.
@@ -213,7 +222,7 @@ void Model::add_mass(double scale, BlockHessian& H) const {
 
 State Model::initial_state() const {
   State state;
-  state.q = Eigen::Map<const VecX>(mesh_.X.data(), mesh_.X.size());
+  state.q = q0_;
   state.qdot = qdot0_;
   return state;
 }

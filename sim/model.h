@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/damping.h"
 #include "sim/energy.h"
 #include "sim/held.h"
 #include "sim/loads.h"
@@ -64,11 +65,12 @@ public:
   VecX load_force(double t) const { return loads_.force(t); }
   /// Elasticity, a term for each material model in use, then springs, then gravity.
   const std::vector<std::unique_ptr<Energy>>& energies() const { return energies_; }
+  const Damping& damping() const { return damping_; }
   /// Blocks of M and of ∂²V/∂q².
   const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
   /// H += scale · M.
   void add_mass(double scale, BlockHessian& H) const;
-  State initial_state() const;  // q = X, velocities of the scene
+  State initial_state() const;  // q = X or the scene's start, velocities of the scene
   Energies energies_of(const State&) const;
   Vec3 momentum(const State&) const;          // Σ (M q̇) by axis [kg m/s]
   Vec3 angular_momentum(const State&) const;  // Σ x × (M q̇), about the origin [kg m²/s]
@@ -88,7 +90,8 @@ private:
   Loads loads_;
   std::vector<std::unique_ptr<Energy>> energies_;
   const Energy* gravity_ = nullptr;
-  VecX qdot0_;
+  Damping damping_;
+  VecX q0_, qdot0_;
 };
 
 }  // namespace lagomorph::sim

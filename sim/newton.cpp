@@ -88,6 +88,11 @@ Newton::Point Newton::evaluate(const Model& model, const IncrementalPotential& p
     p.value -= phi.f.dot(p.q);
     p.value_scale += phi.f.cwiseAbs().dot(p.q.cwiseAbs());
   }
+  if (phi.C != nullptr) {
+    const VecX dq = p.q - phi.q_still, damping = phi.c * phi.C->times(dq);
+    p.value += 0.5 * dq.dot(damping);
+    forces += damping;
+  }
   VecX inertia = VecX::Zero(x.size());
   if (phi.m != 0.0) {
     const VecX dq = p.q - phi.q_predicted;
@@ -110,6 +115,7 @@ void Newton::assemble(const Model& model, const IncrementalPotential& phi, const
   H.set_zero();
   for (const auto& term : model.energies()) term->add_hessian(x, phi.a, kind, H);
   if (phi.m != 0.0) model.add_mass(phi.m, H);
+  if (phi.C != nullptr) H.add(phi.c, *phi.C);
 }
 
 /// The exact Hessian while its Cholesky factorization succeeds, so that Newton stays quadratic. When it does
@@ -120,9 +126,11 @@ FactorStatus Newton::factorize(const Model& model, const IncrementalPotential& p
                                double& clamping) {
   if (settings_.hessian == "projected") {
     assemble(model, phi, q, HessianKind::projected, H_);
+    used_clamping_ = 1.0;
     return linear_solver_.factorize(H_);
   }
   assemble(model, phi, q, HessianKind::exact, H_);
+  used_clamping_ = 0.0;
   FactorStatus status = linear_solver_.factorize(H_);
   if (status != FactorStatus::not_positive_definite) return status;
   exact_ = H_;
@@ -130,16 +138,18 @@ FactorStatus Newton::factorize(const Model& model, const IncrementalPotential& p
   for (clamping = std::max(kLeastClamping, 0.5 * clamping);; clamping *= 4.0) {
     clamping = std::min(clamping, 1.0);
     H_.set_blend(exact_, projected_, clamping);
+    used_clamping_ = clamping;
     status = linear_solver_.factorize(H_);
     if (status != FactorStatus::not_positive_definite || clamping == 1.0) return status;
   }
 }
 
-/// Goes along the direction to a point that is better, and returns whether there was one.
-bool Newton::search_line(const Model& model, const IncrementalPotential& phi, const VecX& direction,
-                         Point& point) const {
+/// Goes along the direction to a point that is better, and returns which part of it that took; 0 when there
+/// was none.
+double Newton::search_line(const Model& model, const IncrementalPotential& phi, const VecX& direction,
+                           Point& point) const {
   const double slope = point.g.dot(direction);
-  if (!(slope < 0.0)) return false;
+  if (!(slope < 0.0)) return 0.0;
   // A decrease that drowns in the rounding of the energy is told by the residual instead.
   const bool blind = -slope < 10.0 * kEpsilon * point.value_scale;
   double step = max_step(model, phi, point.q, direction);
@@ -151,18 +161,18 @@ bool Newton::search_line(const Model& model, const IncrementalPotential& phi, co
                               : next.value <= point.value + kArmijo * step * slope;
     if (!better) continue;
     point = std::move(next);
-    return true;
+    return step;
   }
-  return false;
+  return 0.0;
 }
 
 /// What the rounding of q alone leaves of the residual. [N]
 double Newton::rounding_floor(const VecX& q) const { return pins().free_norm(H_.rounding_of_times(q)); }
 
 /// Goes along a direction in which the held coordinates reach q_held, as far as V is defined; Φ need not
-/// fall. Returns whether it got anywhere.
-bool Newton::carry(const Model& model, const IncrementalPotential& phi, const VecX& direction,
-                   Point& point) const {
+/// fall. Returns which part of it that took; 0 when it got nowhere.
+double Newton::carry(const Model& model, const IncrementalPotential& phi, const VecX& direction,
+                     Point& point) const {
   double step = max_step(model, phi, point.q, direction);
   for (int k = 0; k <= kMaxBlindBacktracks; ++k, step *= 0.5) {
     VecX q = point.q + step * direction;
@@ -172,9 +182,9 @@ bool Newton::carry(const Model& model, const IncrementalPotential& phi, const Ve
     Point next = evaluate(model, phi, std::move(q));
     if (!next.is_finite()) continue;
     point = std::move(next);
-    return true;
+    return step;
   }
-  return false;
+  return 0.0;
 }
 
 NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& phi, VecX& q) {
@@ -197,6 +207,7 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
   VecX direction, lift;  // what the held coordinates have still to go
   double clamping = 0.0;
   int carries = 0;
+  report.iterates.push_back({point.residual(), point.value, 0.0, 0.0});
   for (;;) {
     if (!point.is_finite()) return end(StepStatus::not_finite);
     if (phi.q_held.size() != 0) lift = pins().pinned_part(phi.q_held - point.q);
@@ -215,13 +226,16 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
     ++report.iterations;
     if (!direction.allFinite()) return end(StepStatus::not_finite);
     if (!arrived) {
-      if (++carries > kMaxCarries || !carry(model, phi, direction, point))
-        return end(StepStatus::not_converged);
+      const double part = ++carries > kMaxCarries ? 0.0 : carry(model, phi, direction, point);
+      if (part == 0.0) return end(StepStatus::not_converged);
+      report.iterates.push_back({point.residual(), point.value, part, used_clamping_});
       continue;
     }
 
     const double norm_before = point.norm;
-    if (!search_line(model, phi, direction, point)) return end_stagnated();
+    const double step = search_line(model, phi, direction, point);
+    if (step == 0.0) return end_stagnated();
+    report.iterates.push_back({point.residual(), point.value, step, used_clamping_});
     const bool crawls = point.norm > 0.5 * norm_before && point.norm > settings_.tolerance * point.reference;
     if (crawls && point.norm <= kNearRoundingFloor * rounding_floor(point.q))
       return end(StepStatus::rounding_floor);

@@ -19,6 +19,10 @@ struct IncrementalPotential {
   VecX f;          // constant force, 3n [N]; empty: zero
   const Pins* pins = nullptr;  // what is held; none: the model's at the start. Must outlive the Newton
   VecX q_held;                 // where the held coordinates end, 3n [m]; empty: where they are
+  // Damping: + c/2 (q - q_still)ᵀ C (q - q_still).
+  const BlockHessian* C = nullptr;  // [kg/s]; nullptr: none
+  double c = 0.0;                   // [1/s]
+  VecX q_still;                     // where the scheme's q̇ is zero, 3n [m]
 };
 
 /// Within this many rounding floors, stagnation is convergence.
@@ -32,6 +36,7 @@ struct NewtonReport {
   int iterations = 0;     // linear systems solved
   double residual = 0.0;  // |g_free| over the reference
   VecX balance;  // ∂Φ/∂q, 3n: zero but for the residual where free, the force of the pins where held [N]
+  std::vector<NewtonIterate> iterates;
 };
 
 /// Newton's method with a line search. Keeps the symbolic factorization and buffers of one model's topology.
@@ -48,8 +53,8 @@ private:
   Point evaluate(const Model&, const IncrementalPotential&, VecX q) const;
   void assemble(const Model&, const IncrementalPotential&, const VecX& q, HessianKind, BlockHessian& H) const;
   FactorStatus factorize(const Model&, const IncrementalPotential&, const VecX& q, double& clamping);
-  bool search_line(const Model&, const IncrementalPotential&, const VecX& direction, Point& point) const;
-  bool carry(const Model&, const IncrementalPotential&, const VecX& direction, Point& point) const;
+  double search_line(const Model&, const IncrementalPotential&, const VecX& direction, Point& point) const;
+  double carry(const Model&, const IncrementalPotential&, const VecX& direction, Point& point) const;
   double rounding_floor(const VecX& q) const;
   const Pins& pins() const { return *pins_; }
 
@@ -58,6 +63,7 @@ private:
   const Pins* pins_;  // that it is analyzed for
   BlockHessian H_;    // as it was factorized last
   BlockHessian exact_, projected_;
+  double used_clamping_ = 0.0;  // of H_
 };
 
 }  // namespace lagomorph::sim

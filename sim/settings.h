@@ -126,12 +126,20 @@ struct FieldSettings {
   std::string where;                  // prefix of error messages; empty: made of body and number
 };
 
+/// Forces -C q̇; see Damping.
+struct DampingSettings {
+  double mass = 0.0;       // Rayleigh's α, of the mass matrix [1/s], >= 0
+  double stiffness = 0.0;  // Rayleigh's β, of the tangent stiffness [s], >= 0
+  double viscosity = 0.0;  // η, of the strain rate; rigid motion is not damped [Pa s], >= 0
+};
+
 /// X_world = translate + rotate(scale · X_file). The rest shape itself is placed.
 struct BodySettings {
   std::string name;                 // default: body0, body1, ...
   double density = 1000.0;          // [kg/m^3], > 0
   std::string mass = "consistent";  // or "lumped"
   MaterialSettings material;
+  DampingSettings damping;
   double scale = 1.0;             // > 0
   Vec3 rotate = Vec3::Zero();     // Euler angles about the fixed x, then y, then z axis [degrees]
   Vec3 translate = Vec3::Zero();  // [m]
@@ -139,6 +147,8 @@ struct BodySettings {
   Vec3 velocity = Vec3::Zero();  // [m/s]
   Vec3 spin = Vec3::Zero();      // [rad/s]
   std::string velocities;        // file of a velocity for each vertex; whoever reads it fills in BodyInput's
+  std::string start = "rest";     // shape of frame 0 but for pinned vertices; see start_names()
+  int seed = 0;                   // of "scramble"
   std::vector<PinSettings> pin;
   std::vector<SpringSettings> spring;
   std::vector<LoadSettings> load;
@@ -152,6 +162,8 @@ struct TimeSettings {
   int substeps = 1;   // steps a frame, >= 1
   std::string integrator = "backward_euler";
   Vec3 gravity = Vec3(0.0, -9.81, 0.0);  // [m/s^2]
+  std::optional<double>
+      error_tolerance;  // of a step's estimated error, else it is halved [m], > 0; none: any
 };
 
 struct SolverSettings {

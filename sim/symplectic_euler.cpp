@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,13 +21,16 @@ constexpr int kStepsAnEstimate = 32;  // the stable step is found anew after so 
 constexpr double kSafety = 0.9;       // part of the stable step that is taken
 constexpr double kMostSteps = 1e6;
 
-/// q̇1 = q̇0 - h M⁻¹ ∂V/∂q(q0), q1 = q0 + h q̇1: first order, symplectic, and stable for h < 2/ω, ω² the largest
-/// eigenvalue of M⁻¹ ∂²V/∂q². A longer step is divided. [Hairer, Lubich and Wanner 2006, Sec. I.1.2]
+/// q̇1 = q̇0 - h M⁻¹ (∂V/∂q(q0) + C(q0) q̇0), q1 = q0 + h q̇1: first order, without damping symplectic. With ω²
+/// the largest eigenvalue of M⁻¹ ∂²V/∂q² and δ that of M⁻¹ C it is stable for h² ω² + 2 h δ < 4, which is h <
+/// 2/ω without damping: of x'' = -δ x' - ω² x the roots of z² - (2 - h² ω² - h δ) z + 1 - h δ leave the unit
+/// circle there. A longer step is divided. [Hairer, Lubich and Wanner 2006, Sec. I.1.2]
 class SymplecticEuler : public Integrator {
 public:
   SymplecticEuler(const SolverSettings& settings, const Model& model)
       : linear_solver_((check(settings), settings.blas_threads)), K_(model.pattern()) {
     hold(model, model.held(0.0));
+    if (!model.damping().is_none()) C_.emplace(model.pattern());
   }
 
   std::string_view name() const override { return "symplectic_euler"; }
@@ -39,6 +43,8 @@ public:
     VecX q = state.q, qdot = state.qdot;
     double rest = h;
     int taken = 0;
+    StepReport report{StepStatus::converged, 0, 0.0, h};
+    report.error = 0.0;
     while (rest > 0.0) {
       const double steps = std::ceil(rest / (kSafety * stable_step(model, q)));
       if (!(taken + steps <= kMostSteps)) return {StepStatus::not_finite, 0, 0.0, h};
@@ -73,6 +79,12 @@ private:
     for (const auto& term : model.energies()) term->add_gradient(q, -1.0, f);
     const VecX load = model.load_force(t);
     if (load.size() != 0) f += load;
+    if (C_) {
+      model.damping().assemble(model.energies(), q, *C_);
+      const VecX damping = C_->times(qdot);
+      f -= damping;
+      report.damping_loss += h * qdot.dot(damping);
+    }
     const VecX q0 = q;
     if (held_->is_driven()) {
       held_->place(t + h, q);
@@ -82,29 +94,42 @@ private:
     } else {
       linear_solver_.solve(f, acceleration_);
     }
+    report.error = std::max(*report.error, 0.5 * h * h * largest_free(held_->pins(), acceleration_));
     qdot += h * acceleration_;
     q = q0 + h * qdot;
     if (held_->is_driven()) held_->place(t + h, q);  // to the bit
     report.account(*held_, model.mass_times(acceleration_) - f, load, q - q0);
   }
 
-  /// 2/ω of the free vertices, by Lanczos's method for K v = ω² M v from a fixed vector on; infinite when
-  /// nothing pushes back. [s]
+  /// The positive root of h² ω² + 2 h δ = 4 of the free vertices; infinite when nothing pushes back. [s]
   double stable_step(const Model& model, const VecX& q) {
     K_.set_zero();
     for (const auto& term : model.energies()) term->add_hessian(q, 1.0, HessianKind::exact, K_);
-    VecX v = noise(q.size()), before = VecX::Zero(q.size());
+    const double omega2 = std::max(largest_eigenvalue(model, K_), 0.0);
+    double delta = 0.0;
+    if (C_) {
+      model.damping().assemble(model.energies(), q, *C_);
+      delta = std::max(largest_eigenvalue(model, *C_), 0.0);
+    }
+    const double divisor = delta + std::sqrt(delta * delta + 4.0 * omega2);
+    return divisor > 0.0 ? 4.0 / divisor : std::numeric_limits<double>::infinity();
+  }
+
+  /// λ of A v = λ M v over the free vertices, the largest, by Lanczos's method from a fixed vector on.
+  double largest_eigenvalue(const Model& model, const BlockHessian& A) {
+    const Eigen::Index size = 3 * A.pattern().vertex_count();
+    VecX v = noise(size), before = VecX::Zero(size);
     held_->pins().clear_pinned(v);
     std::vector<double> diagonal, beside;
     double beta = std::sqrt(v.dot(model.mass_times(v)));
     while (static_cast<int>(diagonal.size()) < kLanczosSteps && beta > 0.0) {
       v /= beta;
-      VecX Kv = K_.times(v);
-      held_->pins().clear_pinned(Kv);
-      const double alpha = v.dot(Kv);
+      VecX Av = A.times(v);
+      held_->pins().clear_pinned(Av);
+      const double alpha = v.dot(Av);
       diagonal.push_back(alpha);
       VecX w;
-      linear_solver_.solve(Kv, w);
+      linear_solver_.solve(Av, w);
       w -= alpha * v;
       if (diagonal.size() > 1) w -= beside.back() * before;
       beta = std::sqrt(std::max(w.dot(model.mass_times(w)), 0.0));
@@ -113,8 +138,7 @@ private:
       before = std::move(v);
       v = std::move(w);
     }
-    const double omega2 = largest_eigenvalue(diagonal, beside);
-    return omega2 > 0.0 ? 2.0 / std::sqrt(omega2) : std::numeric_limits<double>::infinity();
+    return largest_eigenvalue(diagonal, beside);
   }
 
   /// Of the tridiagonal matrix, and how far off it may be.
@@ -142,13 +166,15 @@ private:
   LinearSolver linear_solver_;  // of M
   const Held* held_ = nullptr;  // that it is made for
   BlockHessian K_;
+  std::optional<BlockHessian> C_;  // when anything is damped
   VecX acceleration_;
   bool has_mass_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_symplectic_euler(const SolverSettings& settings, const Model& model) {
+std::unique_ptr<Integrator> make_symplectic_euler(const TimeSettings&, const SolverSettings& settings,
+                                                  const Model& model) {
   return std::make_unique<SymplecticEuler>(settings, model);
 }
 

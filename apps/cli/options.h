@@ -25,6 +25,8 @@ struct Options {
   std::optional<std::string> backend;           // --backend
   int threads = 0;                              // --threads; 0: as many as the process may use
   bool video = false;                           // --video
+  bool is_static = false;                       // --static: the equilibrium instead of the motion
+  bool log_newton = false;                      // --log-newton
   bool force = false;                           // --force
   bool quiet = false;                           // --quiet
   bool json = false;                            // --json

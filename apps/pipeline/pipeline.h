@@ -30,6 +30,7 @@ struct PipelineInput {
   const std::map<int, FrameRecord>& records;  // of frames that are there
   const std::vector<FrameJob>& jobs;          // in order
   int threads;                                // stages at work at once, and writers
+  bool log_newton;                            // into the records
 };
 
 struct PipelineResult {

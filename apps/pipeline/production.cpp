@@ -121,7 +121,7 @@ std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress
     if (p.share) p.lock->take(RunLock::Kind::shared);
   }
   return run_pipeline({p.scene, model, surfaces, *integrator, p.renderer.get(), p.paths, p.identity,
-                       p.contents.matching, p.jobs, p.threads},
+                       p.contents.matching, p.jobs, p.threads, p.options.log_newton},
                       progress);
 }
 

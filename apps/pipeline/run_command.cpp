@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/commands.h"
 #include "apps/pipeline/production.h"
@@ -39,12 +40,22 @@ std::optional<RunLock> lock_existing(const RunPaths& paths) {
   return lock;
 }
 
+/// `--static` in terms of scene keys; more frames are equilibria of later loads.
+std::vector<std::string> overrides(const Options& options) {
+  std::vector<std::string> set = options.set;
+  if (options.is_static) {
+    set.insert(set.begin(), "time.frames=2");
+    set.emplace_back("time.integrator=\"static\"");
+  }
+  return set;
+}
+
 ExitStatus run_scene(const Options& options, bool draws) {
   const StopSignals signals;
   Progress progress(options.quiet);
   const int threads = thread_count(options);
   const sim::ThreadLimit limit(threads);
-  SceneDesc scene = load_scene(find_scene(options.inputs.at(0)), options.set);
+  SceneDesc scene = load_scene(find_scene(options.inputs.at(0)), overrides(options));
   if (options.backend) scene.render.backend = *options.backend;
   const FrameRange frames = wanted_frames(options.frames, scene.time.frames);
   const RunPaths paths(options.out.value_or(fs::path("out") / scene.name));

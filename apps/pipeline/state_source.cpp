@@ -4,8 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "apps/file_io.h"
 #include "apps/pipeline/stopwatch.h"
 #include "apps/run/record.h"
@@ -14,8 +12,8 @@
 namespace lagomorph::apps {
 
 StateSource::StateSource(const SceneDesc& scene, const sim::Model& model, sim::Integrator& integrator,
-                         const RunPaths& paths)
-    : scene_(scene), model_(model), integrator_(integrator), paths_(paths) {}
+                         const RunPaths& paths, bool log_newton)
+    : scene_(scene), model_(model), integrator_(integrator), paths_(paths), log_newton_(log_newton) {}
 
 sim::State StateSource::read(int frame) const {
   const std::filesystem::path file = paths_.state(frame);
@@ -29,16 +27,17 @@ sim::State StateSource::read(int frame) const {
 bool StateSource::simulate(int frame, sim::State& state, StateRecord& record) {
   const Stopwatch watch;
   if (frame == 0) {
-    state = model_.initial_state();
+    state = integrator_.initial_state(model_);
   } else {
     const bool at_hand = last_ && last_->frame == frame - 1;
     state = at_hand ? std::move(*last_) : read(frame - 1);
     record.report = sim::advance_frame(model_, integrator_, scene_.time, scene_.solver, state);
     if (!sim::is_good(record.report.status)) {
-      failure_ = fmt::format("frame {}: {}", frame, record.report.reason);
+      failure_ = record.report.reason;
       return false;
     }
   }
+  if (!log_newton_) record.report.newton.clear();
   record.time = state.t;
   for (const sim::State::Level& level : state.history) record.history_times.push_back(level.t);
   record.energy = model_.energies_of(state);

@@ -14,7 +14,7 @@ namespace lagomorph::apps {
 /// Gives the states of a run, frame by frame: those on disk as they are, the others by stepping.
 class StateSource {
 public:
-  StateSource(const SceneDesc&, const sim::Model&, sim::Integrator&, const RunPaths&);
+  StateSource(const SceneDesc&, const sim::Model&, sim::Integrator&, const RunPaths&, bool log_newton);
 
   /// The state of a job's frame. The one before it must have been given, or be on disk. nullopt when the
   /// simulation cannot go on; failure() says why. Throws Error(wrong_input) for a file that is no state of
@@ -31,6 +31,7 @@ private:
   const sim::Model& model_;
   sim::Integrator& integrator_;
   const RunPaths& paths_;
+  bool log_newton_;
   std::optional<sim::State> last_;
   std::string failure_;
 };

@@ -7,6 +7,7 @@
 #include "apps/run/contents.h"
 #include "apps/run/energy_csv.h"
 #include "apps/run/lock.h"
+#include "apps/run/newton_csv.h"
 
 namespace lagomorph::apps {
 
@@ -24,6 +25,9 @@ std::map<int, FrameRecord> gather(const RunPaths& paths, const RunInfo& info, in
     frames.emplace(frame, std::move(parts));
   }
   write_file_if_changed(paths.energy(), energy_csv(frames), Durable::yes);
+  const std::string newton = newton_csv(frames);
+  if (!newton.empty()) write_file_if_changed(paths.newton(), newton, Durable::yes);
+  if (newton.empty() && fs::exists(paths.newton(), error)) remove_file(paths.newton());
   write_file_if_changed(paths.run_json(), run_json_text(info, frames), Durable::yes);
   return frames;
 }

@@ -16,6 +16,7 @@ public:
   std::filesystem::path run_json() const { return root_ / "run.json"; }
   std::filesystem::path scene() const { return root_ / "scene.toml"; }
   std::filesystem::path energy() const { return root_ / "energy.csv"; }
+  std::filesystem::path newton() const { return root_ / "newton.csv"; }
   std::filesystem::path mesh() const { return root_ / "mesh.msh"; }
   std::filesystem::path inputs() const { return root_ / "inputs"; }
   std::filesystem::path states() const { return root_ / "states"; }

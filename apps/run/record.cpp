@@ -1,12 +1,14 @@
 #include "apps/run/record.h"
 
 #include <array>
+#include <limits>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
 
 #include "apps/error.h"
 #include "apps/file_io.h"
+#include "sim/error.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -23,6 +25,38 @@ sim::Vec3 vector_of(const Json& json, const char* key) {
   return json.contains(key) ? vector_of(json.at(key)) : sim::Vec3(sim::Vec3::Zero());
 }
 Json json_of(const sim::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// A number that is not finite is null in JSON.
+double number(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+Json newton_json(const std::vector<sim::NewtonLog>& logs) {
+  Json json = Json::array();
+  for (const sim::NewtonLog& log : logs) {
+    Json iterates = Json::array();
+    for (const sim::NewtonIterate& at : log.iterates)
+      iterates.push_back({at.residual, at.energy, at.step, at.clamping});
+    json.push_back({{"time", log.t},
+                    {"h", log.h},
+                    {"status", sim::to_string(log.status)},
+                    {"iterates", std::move(iterates)}});
+  }
+  return json;
+}
+
+std::vector<sim::NewtonLog> newton_from(const Json& json) {
+  std::vector<sim::NewtonLog> logs;
+  for (const Json& step : json) {
+    sim::NewtonLog& log = logs.emplace_back();
+    log.t = step.at("time").get<double>();
+    log.h = step.at("h").get<double>();
+    log.status = sim::step_status(step.at("status").get<std::string>());
+    for (const Json& at : step.at("iterates"))
+      log.iterates.push_back({number(at.at(0)), number(at.at(1)), number(at.at(2)), number(at.at(3))});
+  }
+  return logs;
+}
 
 FrameRecord from_json(const Json& json) {
   FrameRecord record;
@@ -47,10 +81,14 @@ FrameRecord from_json(const Json& json) {
     for (const Json& force : json.value("pin_forces", Json::array()))
       state.report.pin_forces.push_back(vector_of(force));
     state.report.steps = json.at("steps").get<int>();
+    state.report.rejected = json.value("rejected", 0);
     state.report.halvings = json.at("halvings").get<int>();
     state.report.newton_iterations = json.at("newton_iterations").get<int>();
     state.report.residual = json.at("residual").get<double>();
+    state.report.damping_loss = json.value("damping_loss", 0.0);
+    state.report.error = json.value("error", 0.0);
     state.report.hit_rounding_floor = json.at("hit_rounding_floor").get<bool>();
+    if (json.contains("newton")) state.report.newton = newton_from(json["newton"]);
     state.seconds = seconds.at("simulation").get<double>();
   }
   if (json.contains("picture_sha256")) {
@@ -77,10 +115,14 @@ Json to_json(const FrameRecord& record) {
     json["state_sha256"] = state.sha256;
     json["state_made_by"] = state.made_by;
     json["steps"] = state.report.steps;
+    json["rejected"] = state.report.rejected;
     json["halvings"] = state.report.halvings;
     json["newton_iterations"] = state.report.newton_iterations;
     json["residual"] = state.report.residual;
+    json["damping_loss"] = state.report.damping_loss;
+    json["error"] = state.report.error;
     json["hit_rounding_floor"] = state.report.hit_rounding_floor;
+    if (!state.report.newton.empty()) json["newton"] = newton_json(state.report.newton);
     json["energy"] = {{"kinetic", state.energy.kinetic},
                       {"elastic", state.energy.elastic},
                       {"gravitational", state.energy.gravitational}};
@@ -117,6 +159,8 @@ std::optional<FrameRecord> read_record(const RunPaths& paths, int frame) {
     if (record.frame == frame) return record;
   } catch (const Json::exception&) {
     // of another version, or damaged
+  } catch (const sim::InputError&) {
+    // likewise
   } catch (const Error&) {
     // unreadable
   }

@@ -93,7 +93,11 @@ std::string run_json_text(const RunInfo& info, const std::map<int, FrameRecord>&
                   {"picture_build", keys_json(identity.picture_build())}};
   if (info.video) json["video"] = video_json(*info.video);
   json["frames"] = Json::array();
-  for (const auto& [frame, record] : frames) json["frames"].push_back(to_json(record));
+  for (const auto& [frame, record] : frames) {
+    Json told = to_json(record);
+    told.erase("newton");  // newton.csv has it
+    json["frames"].push_back(std::move(told));
+  }
   return json.dump(1) + "\n";
 }
 

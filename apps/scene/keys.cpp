@@ -11,6 +11,7 @@
 #include "sim/materials/presets.h"
 #include "sim/materials/table.h"
 #include "sim/radial_basis.h"
+#include "sim/start.h"
 #include "sim/tissue.h"
 
 namespace lagomorph::apps {
@@ -35,17 +36,25 @@ void visit_time(sim::TimeSettings& t, KeyVisitor& v) {
   v.key({.name = "frames",
          .bounds = between(1, 1e7),
          .part = Part::none,
-         .meaning = "pictures 0 .. frames - 1; frame 0 is the initial state"},
+         .meaning = "pictures 0 .. frames - 1; frame 0 is the initial state",
+         .default_note = "150; 2 with the integrator static"},
         &t.frames);
   v.key({.name = "substeps", .bounds = at_least(1), .part = simulation, .meaning = "steps a frame"},
         &t.substeps);
-  v.key({.name = "integrator",
-         .part = simulation,
-         .meaning = "time-stepping scheme",
-         .choices = sim::integrator_names},
-        &t.integrator);
+  v.key(
+      {.name = "integrator",
+       .part = simulation,
+       .meaning = "time-stepping scheme; static: frame 0 is at rest, each other the equilibrium of its time",
+       .choices = sim::integrator_names},
+      &t.integrator);
   v.key({.name = "gravity", .unit = "m/s^2", .part = simulation, .meaning = "acceleration of free fall"},
         &t.gravity);
+  v.key({.name = "error_tolerance",
+         .unit = "m",
+         .bounds = above(0),
+         .part = simulation,
+         .meaning = "a step whose estimated error of positions is larger is halved"},
+        &t.error_tolerance);
 }
 
 void visit_solver(sim::SolverSettings& s, KeyVisitor& v) {
@@ -180,6 +189,27 @@ void visit_material(sim::MaterialSettings& m, KeyVisitor& v) {
       &m.data);
   v.optional({.name = "fibre", .meaning = "fibres in it, beside the model", .is_inline = true}, m.fibre,
              visit_fibre);
+}
+
+void visit_damping(sim::DampingSettings& d, KeyVisitor& v) {
+  v.key({.name = "mass",
+         .unit = "1/s",
+         .bounds = at_least(0),
+         .part = simulation,
+         .meaning = "Rayleigh's alpha, of the mass matrix; damps rigid motion too"},
+        &d.mass);
+  v.key({.name = "stiffness",
+         .unit = "s",
+         .bounds = at_least(0),
+         .part = simulation,
+         .meaning = "Rayleigh's beta, of the tangent stiffness"},
+        &d.stiffness);
+  v.key({.name = "viscosity",
+         .unit = "Pa s",
+         .bounds = at_least(0),
+         .part = simulation,
+         .meaning = "of the rate of strain; rigid motion is not damped"},
+        &d.viscosity);
 }
 
 void visit_sphere_and_plane(std::optional<sim::SphereSelector>& sphere,
@@ -499,8 +529,18 @@ void visit_body(BodyDesc& b, KeyVisitor& v) {
          .meaning = "a velocity at the start for each vertex, added to these (.npy, float64, (n, 3), m/s)",
          .file = true},
         &p.velocities);
+  v.key({.name = "start",
+         .part = simulation,
+         .meaning =
+             "shape of frame 0: at rest, every vertex somewhere in the rest bounding box, or all on a plane "
+             "across y; pinned vertices are at rest",
+         .choices = sim::start_names},
+        &p.start);
+  v.key({.name = "seed", .part = simulation, .meaning = "of the start scramble"}, &p.seed);
   v.one({.name = "material", .meaning = "what the body is made of", .is_inline = true}, p.material,
         visit_material);
+  v.one({.name = "damping", .meaning = "what takes energy out of its motion", .is_inline = true}, p.damping,
+        visit_damping);
   v.one({.name = "surface", .meaning = "what of the body is drawn"}, b.surface, visit_surface);
   v.one({.name = "look", .meaning = "how the body is drawn"}, b.look, visit_look);
   v.list(

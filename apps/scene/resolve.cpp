@@ -213,6 +213,7 @@ void check_file(const SceneDesc& scene, const std::string& name, const std::stri
 void resolve_scene(SceneDesc& scene, const Places& places, const std::string& stem) {
   if (!places.has("name")) scene.name = stem;
   check_name(scene.name, "name", places);
+  if (scene.time.integrator == "static" && !places.has("time.frames")) scene.time.frames = 2;
   if (scene.body.empty())
     wrong_input(places.of("body") + "the scene has no body; give at least one [[body]] with a mesh");
   std::set<std::string> body_names;

@@ -11,35 +11,10 @@
 #include "sim/parallel.h"
 #include "tests/support/truth.h"
 #include "tests/unit/sim/mesh_fixtures.h"
+#include "tests/unit/sim/motion.h"
 
 namespace lagomorph::sim {
 namespace {
-
-const Vec3 kGravity(0, -9.81, 0);
-
-/// A model with its integrator and its state.
-struct Motion {
-  Model model;
-  TimeSettings time;
-  SolverSettings solver;
-  std::unique_ptr<Integrator> integrator;
-  State state;
-
-  Motion(Model m, const std::string& name, double fps, double tolerance = 1e-11) : model(std::move(m)) {
-    time.integrator = name;
-    time.fps = fps;
-    solver.tolerance = tolerance;
-    integrator = make_integrator(time, solver, model);
-    state = model.initial_state();
-  }
-  FrameReport advance() { return advance_frame(model, *integrator, time, solver, state); }
-  void advance(int frames) {
-    for (int k = 0; k < frames; ++k) {
-      const FrameReport report = advance();
-      ASSERT_TRUE(is_good(report.status)) << report.reason;
-    }
-  }
-};
 
 // --- The reference bar -------------------------------------------------------------------------------------
 
@@ -122,14 +97,6 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Bar,
 
 // --- The reference cube: orders of convergence
 // ---------------------------------------------------------------
-
-Model reference_cube(const char* truth_model) {
-  BodyInput body{truth::mesh("4b_cube_order/cube5.mesh"), {}};
-  body.settings.material.model = truth::model_name(truth_model);
-  body.settings.material.young = 1e5;
-  body.settings.pin.emplace_back().box = BoxSelector{Vec3(-1, 0, -1), Vec3(2, 0, 2)};
-  return Model({body}, kGravity);
-}
 
 /// The cube after `steps` steps to t = 0.5 from the reference's initial velocity.
 State cube_at_half_a_second(const char* truth_model, const std::string& integrator, int steps) {
@@ -219,7 +186,7 @@ TEST(BackwardEuler, FulfilsTheDiscreteEquationsOfMotion) {
 // ----------------------------------------------------------------------------------
 
 class Each : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Integrators, Each, testing::ValuesIn(integrator_names()),
+INSTANTIATE_TEST_SUITE_P(Integrators, Each, testing::ValuesIn(dynamic_integrators()),
                          [](const auto& info) { return info.param; });
 
 Model free_cube(const Vec3& gravity, const Vec3& velocity, const std::string& mass = "consistent") {
@@ -586,7 +553,7 @@ TEST(LinearlyImplicitEuler, SolvesAnIndefiniteSystem) {
 TEST(MakeIntegrator, ListsTheValidNames) {
   EXPECT_EQ(integrator_names(),
             (std::vector<std::string>{"backward_euler", "linearly_implicit_euler", "bdf2",
-                                      "implicit_midpoint", "trapezoidal", "symplectic_euler"}));
+                                      "implicit_midpoint", "trapezoidal", "symplectic_euler", "static"}));
   const Model model = free_cube(kGravity, Vec3::Zero());
   for (const std::string& name : integrator_names()) {
     TimeSettings time;
@@ -607,7 +574,7 @@ TEST(MakeIntegrator, TellsWhatIsWrong) {
   using T = TimeSettings;
   EXPECT_EQ(error([](T& t) { t.integrator = "euler"; }),
             "unknown time.integrator 'euler'; valid ones are backward_euler, linearly_implicit_euler, bdf2, "
-            "implicit_midpoint, trapezoidal, symplectic_euler");
+            "implicit_midpoint, trapezoidal, symplectic_euler, static");
   EXPECT_EQ(error([](T& t) { t.fps = 0.0; }), "time.fps = 0 must be > 0");
   EXPECT_EQ(error([](T& t) { t.substeps = 0; }), "time.substeps = 0 must be >= 1");
   SolverSettings solver;

@@ -52,11 +52,12 @@ TEST(Gather, EnergyHasARowAFrameWithSeventeenDigits) {
   EXPECT_EQ(read_all(paths.energy()),
             "frame,time,kinetic,elastic,gravitational,total,mass,momentum_x,momentum_y,momentum_z,newton_"
             "iterations,"
-            "residual\n"
+            "residual,steps,rejected,damping_loss\n"
             "0,0,0.10000000000000001,0.25,-0.5,-0.15000000000000002,24,1.5,-2.5,0.33333333333333331,17,"
-            "1.0000000000000001e-09\n"
+            "1.0000000000000001e-09,4,2,0.125\n"
             "1,0.033333333333333333,1.1000000000000001,0.25,-0.5,0.85000000000000009,24,1.5,-2.5,"
-            "0.33333333333333331,17,1.0000000000000001e-09\n");
+            "0.33333333333333331,17,1.0000000000000001e-09,4,2,0.25\n");
+  EXPECT_FALSE(fs::exists(paths.newton()));
 }
 
 TEST(RunJson, ReadsBack) {

@@ -1,8 +1,11 @@
 #include "apps/run/record.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "apps/run/newton_csv.h"
 #include "tests/support/temporary_directory.h"
 #include "tests/unit/apps/run/run_fixture.h"
 
@@ -35,6 +38,27 @@ TEST(Record, TellsTheContractsFigures) {
   EXPECT_EQ(json.at("residual"), 1e-9);
   EXPECT_EQ(json.at("seconds"),
             (nlohmann::ordered_json{{"simulation", 0.25}, {"rendering", 0.5}, {"writing", 0.125}}));
+}
+
+/// A number that is not finite, as of a first guess that is inverted, comes back as NaN.
+TEST(Record, KeepsTheLogOfNewton) {
+  const tests::TemporaryDirectory dir;
+  const RunPaths paths(dir.path());
+  make_folder(paths.records());
+  FrameRecord record = some_record(3);
+  record.state->report.newton = {
+      {0.1, 0.025, sim::StepStatus::not_finite, {{0.5, std::numeric_limits<double>::infinity(), 0.0, 0.0}}},
+      {0.1, 0.0125, sim::StepStatus::converged, {{0.5, -2.0, 0.0, 0.0}, {1e-9, -3.0, 0.5, 0.25}}}};
+  write_record(paths, record);
+  const auto records = read_records(paths);
+  ASSERT_EQ(records.size(), 1U);
+  const std::string rows = newton_csv(records);
+  EXPECT_EQ(rows,
+            "frame,time,h,status,iteration,residual,energy,step,clamping\n"
+            "3,0.10000000000000001,0.025000000000000001,not_finite,0,0.5,nan,0,0\n"
+            "3,0.10000000000000001,0.012500000000000001,converged,0,0.5,-2,0,0\n"
+            "3,0.10000000000000001,0.012500000000000001,converged,1,1.0000000000000001e-09,-3,0.5,0.25\n");
+  EXPECT_EQ(newton_csv({{3, some_record(3)}}), "");
 }
 
 TEST(Record, WhatIsNoRecordIsLeftOut) {

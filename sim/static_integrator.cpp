@@ -1,0 +1,77 @@
+#include <utility>
+
+#include "sim/integrators.h"
+#include "sim/newton.h"
+
+namespace lagomorph::sim {
+
+namespace {
+
+/// What is left of a frame's time is nothing below this part of the step.
+constexpr double kRoundingOfTime = 1e-9;
+
+/// Quasi-static equilibrium ∂V/∂q(q1) = 0 at the end of each frame, found by Newton's method on V; q̇ = 0.
+/// Time is but the load's parameter: of r = ∂V/∂q - f, with the loads f at the frame's end, a step h of the time
+/// T that is left to it goes to r(q1) = (1 - h/T) r(q0), so that what is out of balance falls linearly to
+/// nothing, and what is driven goes that part of its way. From the rest shape under gravity that is the load
+/// g t/T. Substeps, and the halving of a step that does not converge, are load steps. [Bonet and Wood 2008,
+/// Sec. 9.6]
+class Static : public Integrator {
+public:
+  Static(const TimeSettings& time, const SolverSettings& settings, const Model& model)
+      : fps_(time.fps), newton_(model, settings) {}
+
+  std::string_view name() const override { return "static"; }
+  int history_levels() const override { return 0; }
+  const char* step_name() const override { return "no equilibrium: a load step"; }
+
+  State initial_state(const Model& model) const override {
+    State state = model.initial_state();
+    state.qdot.setZero();
+    return state;
+  }
+
+  StepReport step(const Model& model, State& state, double h) override {
+    const double end = (state.frame + 1) / fps_;
+    double left = 1.0 - h / (end - state.t);
+    if (left <= kRoundingOfTime) left = 0.0;
+    const Held& held = model.held(end);
+    IncrementalPotential phi;
+    phi.pins = &held.pins();
+    const VecX load = model.load_force(end);
+    if (load.size() != 0) phi.f = (1.0 - left) * load;
+    if (left > 0.0) {
+      if (phi.f.size() == 0) phi.f = VecX::Zero(state.q.size());
+      for (const auto& term : model.energies()) term->add_gradient(state.q, left, phi.f);
+    }
+    if (held.is_driven()) {
+      phi.q_held = state.q;
+      held.place(end, phi.q_held);
+      if (left > 0.0) phi.q_held = left * state.q + (1.0 - left) * phi.q_held;
+    }
+    VecX q = state.q;
+    NewtonReport newton = newton_.minimize(model, phi, q);
+    StepReport report{newton.status, newton.iterations, newton.residual, h};
+    report.iterates = std::move(newton.iterates);
+    report.error = 0.0;
+    if (!is_good(report.status)) return report;
+    report.account(held, newton.balance, load, q - state.q);
+    state.q = std::move(q);
+    state.qdot.setZero();
+    state.t += h;
+    return report;
+  }
+
+private:
+  double fps_;
+  Newton newton_;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_static(const TimeSettings& time, const SolverSettings& settings,
+                                        const Model& model) {
+  return std::make_unique<Static>(time, settings, model);
+}
+
+}  // namespace lagomorph::sim
