@@ -42,6 +42,8 @@ constexpr CommandRow commands[] = {
      "lagomorph approve out/bunny golden/bunny --frames 12..14", approve_command},
     {"preview", "RUN", "contact sheet, animation, page and summary of a run, or of any numbered PNGs",
      "lagomorph preview out/bunny --frames 0..59 -o out/look", preview_command},
+    {"plot", "RUN", "diagrams of a run: energies, momentum, iterations, seconds a stage",
+     "lagomorph plot out/bunny --columns kinetic,elastic --format svg", plot_command},
     {"compare", "A B", "tell whether two pictures are the same, and by how much they differ",
      "lagomorph compare golden.png new.png --heat heat.png", compare_command},
     {"info", "FILE", "tell what a mesh, a scene or a run is", "lagomorph info meshes/bunny.msh --json",
@@ -117,6 +119,25 @@ std::string plain_name(const std::string& value, const char* option) {
   return value;
 }
 
+/// Names between commas.
+std::vector<std::string> names_of(const std::string& value, const char* option) {
+  std::vector<std::string> names;
+  for (std::size_t at = 0; at <= value.size();) {
+    const std::size_t comma = std::min(value.find(',', at), value.size());
+    names.push_back(value.substr(at, comma - at));
+    if (names.back().empty())
+      wrong_input(fmt::format("{} {}: must be names with commas between", option, value));
+    at = comma + 1;
+  }
+  return names;
+}
+
+std::string one_of(const std::string& value, const char* option, const std::vector<std::string>& names) {
+  if (std::find(names.begin(), names.end(), value) == names.end())
+    wrong_input(fmt::format("{} {}: unknown; known are {}", option, value, joined(names)));
+  return value;
+}
+
 void apply_ppd(Options& o, const std::string& value) {
   double n = 0;
   const char* end = value.data() + value.size();
@@ -155,7 +176,7 @@ void apply_fibre(Options& o, const std::string& value) {
 }
 
 constexpr OptionRow option_rows[] = {
-    {"-o,--out", "DIR", " run simulate render check preview compare material ",
+    {"-o,--out", "DIR", " run simulate render check preview plot compare material ",
      "where what is made is written",
      [](Options& o, const std::string& v) { o.out = non_empty(v, "--out"); }},
     {"--set", "KEY=VALUE", " run simulate render info ",
@@ -202,6 +223,12 @@ constexpr OptionRow option_rows[] = {
      [](Options& o, const std::string&) { o.yes = true; }},
     {"--ppd", "N", " check compare ", "pixels per degree of visual angle, for FLIP; by default 67.0206",
      apply_ppd},
+    {"--columns", "A,B,...", " plot ", "only these columns of energy.csv, or simulation, rendering, writing",
+     [](Options& o, const std::string& v) { o.columns = names_of(v, "--columns"); }},
+    {"--format", "NAME", " plot ", "svg or png, instead of both",
+     [](Options& o, const std::string& v) {
+       o.format = one_of(v, "--format", {"svg", "png"});
+     }},
     {"--heat", "FILE", " compare ", "write where they differ as a PNG; with --out, DIR/heat.png",
      [](Options& o, const std::string& v) { o.heat = non_empty(v, "--heat"); }},
     {"--mend", "OUT", " info ", "write the tet mesh without its stray vertices to OUT",
@@ -234,9 +261,9 @@ constexpr OptionRow option_rows[] = {
      "with fibres along X,Y,Z of this stiffness; a fifth number: exponent", apply_fibre},
     {"--F", "NUMBERS", " material ", "one deformation gradient, f00,f01,...,f22; without it: curves",
      [](Options& o, const std::string& v) { o.F = v; }},
-    {"--quiet", nullptr, " run simulate render check approve preview compare info material ",
+    {"--quiet", nullptr, " run simulate render check approve preview plot compare info material ",
      "no progress, only errors", [](Options& o, const std::string&) { o.quiet = true; }},
-    {"--json", nullptr, " run simulate render check approve preview compare info material ",
+    {"--json", nullptr, " run simulate render check approve preview plot compare info material ",
      "print the result as JSON on stdout", [](Options& o, const std::string&) { o.json = true; }},
 };
 

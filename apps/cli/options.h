@@ -42,6 +42,8 @@ struct Options {
   bool yes = false;                             // approve --prune --yes
   bool ctest = false;                           // check --ctest
   bool github = false;                          // check --github
+  std::vector<std::string> columns;             // plot --columns; empty: all
+  std::optional<std::string> format;            // plot, export --format
   bool calibrate = false;                       // check --calibrate, with --yes into GOLDEN
   sim::MaterialSettings material;               // material --young ...; its model is the input
   std::optional<std::string> F;                 // material --F, nine numbers row by row

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/plot/ticks.h"
 #include "apps/preview/html.h"
 
 namespace lagomorph::apps {
@@ -97,16 +98,6 @@ std::string legend(const Chart& chart) {
 std::string frame_list(const std::vector<int>& frames) { return fmt::format("{}", fmt::join(frames, " ")); }
 
 }  // namespace
-
-std::vector<double> ticks(double low, double high) {
-  const double raw = (high - low) / 4;
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  const double step = power * (raw / power <= 1 ? 1 : raw / power <= 2 ? 2 : raw / power <= 5 ? 5 : 10);
-  std::vector<double> all;
-  const auto last = static_cast<int>(std::ceil(high / step - 1e-9));
-  for (int i = static_cast<int>(std::floor(low / step + 1e-9)); i <= last; ++i) all.push_back(i * step);
-  return all;
-}
 
 std::string chart_html(const Chart& chart) {
   const Range values = range_of(chart);

@@ -23,7 +23,4 @@ struct Chart {
 };
 std::string chart_html(const Chart&);
 
-/// Round numbers from at or below `low` to at or above `high`, about five steps apart.
-std::vector<double> ticks(double low, double high);
-
 }  // namespace lagomorph::apps

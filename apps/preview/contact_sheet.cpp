@@ -7,7 +7,7 @@
 
 #include "apps/file_io.h"
 #include "apps/preview/story.h"
-#include "apps/preview/stroke_font.h"
+#include "apps/plot/stroke_font.h"
 #include "render/png_read.h"
 
 namespace lagomorph::apps {

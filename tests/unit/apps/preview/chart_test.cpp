@@ -17,18 +17,6 @@ int count(const std::string& text, const std::string& part) {
 
 bool contains(const std::string& text, const std::string& part) { return count(text, part) > 0; }
 
-TEST(Chart, HasRoundTicksAroundTheValues) {
-  EXPECT_EQ(ticks(0, 6), (Values{0, 2, 4, 6}));
-  EXPECT_EQ(ticks(-850, 600), (Values{-1000, -500, 0, 500, 1000}));
-  EXPECT_EQ(ticks(0, 1), (Values{0, 0.5, 1}));
-  for (const double high : {1e-9, 0.3, 7.0, 12345.0}) {
-    const Values all = ticks(-0.1 * high, high);
-    EXPECT_LE(all.front(), -0.1 * high);
-    EXPECT_GE(all.back(), high * (1 - 1e-9));
-    EXPECT_TRUE(all.size() >= 3 && all.size() <= 8) << high << ": " << all.size();
-  }
-}
-
 TEST(Chart, DrawsLines) {
   const std::string html =
       chart_html({.title = "Energy <J>",

@@ -13,6 +13,7 @@ namespace lagomorph::apps {
 struct TextStyle {
   double height = 12.0;
   std::array<std::uint8_t, 3> color = {255, 255, 255};
+  bool bold = false;
 };
 
 /// Width of a text [pixels]. ASCII has letters; any other character of UTF-8 is an empty box.

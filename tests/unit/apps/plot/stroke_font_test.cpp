@@ -1,4 +1,4 @@
-#include "apps/preview/stroke_font.h"
+#include "apps/plot/stroke_font.h"
 
 #include <algorithm>
 #include <map>
