@@ -14,6 +14,7 @@ ExitStatus check_command(const Options&);      // a run against its golden
 ExitStatus calibrate_command(const Options&);  // check --calibrate: limits for a golden
 ExitStatus approve_command(const Options&);    // a run becomes the golden
 ExitStatus preview_command(const Options&);    // what a run is, to look at
+ExitStatus export_command(const Options&);     // a run's states for other tools
 ExitStatus plot_command(const Options&);       // diagrams of a run
 ExitStatus compare_command(const Options&);    // two pictures, one verdict
 ExitStatus info_command(const Options&);       // what a mesh, a scene or a run is

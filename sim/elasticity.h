@@ -13,6 +13,7 @@
 #include "sim/kinematics.h"
 #include "sim/materials/energy_density.h"
 #include "sim/parallel.h"
+#include "sim/stress_source.h"
 #include "sim/tet_gather.h"
 #include "sim/tet_mesh.h"
 
@@ -21,7 +22,7 @@ namespace lagomorph::sim {
 /// V = Σ_j vol_j ψ(F_j) over some of a mesh's tets, with a material of its own for each of them. (lecture,
 /// "Potential energy")
 template <EnergyDensity Material>
-class Elasticity : public Energy {
+class Elasticity : public Energy, public StressSource {
 public:
   /// `elements` are tets of the mesh, `materials` theirs; `pattern` is that of the whole mesh.
   Elasticity(const TetMesh& mesh, const std::vector<int>& elements, std::vector<Material> materials,
@@ -80,6 +81,16 @@ public:
     }
   }
 
+  void add_states(const VecX& q, ElementStates& states) const override {
+    for_each_element(kCheap, [&](std::size_t j) {
+      const Mat3 F_j = F(j, q);
+      const auto tet = static_cast<std::size_t>(elements_[j].tet);
+      states.P[tet] += materials_[j].dpsi_dF(F_j);
+      states.psi[tet] += materials_[j].psi(F_j);
+      states.stiffness[tet] += materials_[j].stiffness();
+    });
+  }
+
 private:
   static constexpr int kCheap = 256, kDear = 64;  // elements a task
 
@@ -87,6 +98,7 @@ private:
     Tet corners;    // ascending, whatever the orientation
     Mat3 D123;      // the rows of D of the last three corners [1/m]
     double volume;  // [m^3]
+    int tet;        // of the mesh
   };
 
   Elasticity(std::vector<Element> elements, std::vector<Material> materials,
@@ -109,6 +121,7 @@ private:
       for (int a = 0; a < 4; ++a) X.col(a) = mesh.X.row(e.corners[a]).transpose();
       e.D123 = dphi_dX(X).bottomRows<3>();
       e.volume = std::abs(tet_volume(X));
+      e.tet = j;
       elements.push_back(e);
     }
     return elements;

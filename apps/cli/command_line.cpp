@@ -44,6 +44,8 @@ constexpr CommandRow commands[] = {
      "lagomorph preview out/bunny --frames 0..59 -o out/look", preview_command},
     {"plot", "RUN", "diagrams of a run: energies, momentum, iterations, seconds a stage",
      "lagomorph plot out/bunny --columns kinetic,elastic --format svg", plot_command},
+    {"export", "RUN", "write a run's states for other tools: tets with stress and other fields, or surfaces",
+     "lagomorph export out/bunny --format vtu --fields von_mises,J", export_command},
     {"compare", "A B", "tell whether two pictures are the same, and by how much they differ",
      "lagomorph compare golden.png new.png --heat heat.png", compare_command},
     {"info", "FILE", "tell what a mesh, a scene or a run is", "lagomorph info meshes/bunny.msh --json",
@@ -176,17 +178,17 @@ void apply_fibre(Options& o, const std::string& value) {
 }
 
 constexpr OptionRow option_rows[] = {
-    {"-o,--out", "DIR", " run simulate render check preview plot compare material ",
+    {"-o,--out", "DIR", " run simulate render check preview plot export compare material ",
      "where what is made is written",
      [](Options& o, const std::string& v) { o.out = non_empty(v, "--out"); }},
     {"--set", "KEY=VALUE", " run simulate render info ",
      "a scene key, as in body.0.density=500; VALUE is TOML or a string", apply_set},
     {"--set", "KEY=VALUE", " check ", "a key of golden.toml, as in limits.flip_mean=0.02", apply_set},
-    {"--frames", "A..B", " run simulate render check approve preview ",
+    {"--frames", "A..B", " run simulate render check approve preview export ",
      "only pictures A to B, both included; or one number",
      [](Options& o, const std::string& v) { o.frames = parse_frames(v); }},
     {"--backend", "NAME", " run render ", "raster or path, instead of the scene's", apply_backend},
-    {"--threads", "N", " run simulate render check preview compare info ",
+    {"--threads", "N", " run simulate render check preview export compare info ",
      "at most N threads; never changes a result", apply_threads},
     {"--video", nullptr, " run render ", "also make RUN/<name>.mp4 of the pictures",
      [](Options& o, const std::string&) { o.video = true; }},
@@ -229,6 +231,13 @@ constexpr OptionRow option_rows[] = {
      [](Options& o, const std::string& v) {
        o.format = one_of(v, "--format", {"svg", "png"});
      }},
+    {"--format", "NAME", " export ", "vtu, ply or obj; by default vtu",
+     [](Options& o, const std::string& v) {
+       o.format = one_of(v, "--format", {"vtu", "ply", "obj"});
+     }},
+    {"--fields", "A,B,...", " export ",
+     "von_mises, J, energy_density, displacement, stiffness, body; by default all in vtu",
+     [](Options& o, const std::string& v) { o.fields = names_of(v, "--fields"); }},
     {"--heat", "FILE", " compare ", "write where they differ as a PNG; with --out, DIR/heat.png",
      [](Options& o, const std::string& v) { o.heat = non_empty(v, "--heat"); }},
     {"--mend", "OUT", " info ", "write the tet mesh without its stray vertices to OUT",
@@ -261,9 +270,9 @@ constexpr OptionRow option_rows[] = {
      "with fibres along X,Y,Z of this stiffness; a fifth number: exponent", apply_fibre},
     {"--F", "NUMBERS", " material ", "one deformation gradient, f00,f01,...,f22; without it: curves",
      [](Options& o, const std::string& v) { o.F = v; }},
-    {"--quiet", nullptr, " run simulate render check approve preview plot compare info material ",
+    {"--quiet", nullptr, " run simulate render check approve preview plot export compare info material ",
      "no progress, only errors", [](Options& o, const std::string&) { o.quiet = true; }},
-    {"--json", nullptr, " run simulate render check approve preview plot compare info material ",
+    {"--json", nullptr, " run simulate render check approve preview plot export compare info material ",
      "print the result as JSON on stdout", [](Options& o, const std::string&) { o.json = true; }},
 };
 

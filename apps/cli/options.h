@@ -43,6 +43,7 @@ struct Options {
   bool ctest = false;                           // check --ctest
   bool github = false;                          // check --github
   std::vector<std::string> columns;             // plot --columns; empty: all
+  std::vector<std::string> fields;              // export --fields; empty: as the format has it
   std::optional<std::string> format;            // plot, export --format
   bool calibrate = false;                       // check --calibrate, with --yes into GOLDEN
   sim::MaterialSettings material;               // material --young ...; its model is the input

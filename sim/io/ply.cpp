@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "sim/io/binary_writer.h"
+#include "sim/io/field_writers.h"
 #include "sim/io/formats.h"
 #include "sim/io/number_type.h"
 #include "sim/io/polygon.h"
@@ -240,12 +241,19 @@ private:
 
 TriMesh read_ply(const File& file, Remarks&) { return Reader(file).read(); }
 
-std::string write_ply(const TriMesh& mesh) {
-  std::string bytes =
-      "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.X.rows()) +
-      "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-      std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
-  for (Eigen::Index i = 0; i < mesh.X.size(); ++i) append_bytes(bytes, mesh.X.data()[i]);
+std::string write_ply(const TriMesh& mesh) { return write_ply(mesh, {}); }
+
+std::string write_ply(const TriMesh& mesh, const std::vector<Field>& fields) {
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                      std::to_string(mesh.X.rows()) +
+                      "\nproperty double x\nproperty double y\nproperty double z\n";
+  for (const Field& field : fields) bytes += "property double " + std::string(field.info.name) + "\n";
+  bytes += "element face " + std::to_string(mesh.triangles.size()) +
+           "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (Eigen::Index i = 0; i < mesh.X.rows(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) append_bytes(bytes, mesh.X(i, axis));
+    for (const Field& field : fields) append_bytes(bytes, field.vertices[static_cast<std::size_t>(i)]);
+  }
   for (const Triangle& triangle : mesh.triangles) {
     append_bytes(bytes, std::uint8_t{3});
     for (const int corner : triangle) append_bytes(bytes, std::int32_t{corner});

@@ -1,6 +1,7 @@
 // VTK's XML file of an unstructured grid. (docs.vtk.org, "VTK XML Formats")
 #include "sim/io/base64.h"
 #include "sim/io/binary_writer.h"
+#include "sim/io/field_writers.h"
 #include "sim/io/formats.h"
 #include "sim/io/scanner.h"
 #include "sim/io/text_writer.h"
@@ -64,6 +65,10 @@ void write_array(TextWriter& out, std::string_view attributes, const std::vector
   out << "<DataArray " << attributes << " format=\"binary\">" << base64_encode(bytes) << "</DataArray>\n";
 }
 
+std::string array_name(const Field& field) {
+  return "type=\"Float64\" Name=\"" + std::string(field.info.name) + "\"";
+}
+
 }  // namespace
 
 TetMesh read_vtu(const File& file, Remarks&) {
@@ -86,7 +91,9 @@ TetMesh read_vtu(const File& file, Remarks&) {
   return mesh;
 }
 
-std::string write_vtu(const TetMesh& mesh) {
+std::string write_vtu(const TetMesh& mesh) { return write_vtu(mesh, {}); }
+
+std::string write_vtu(const TetMesh& mesh, const std::vector<Field>& fields) {
   TextWriter out;
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
          "byte_order=\"LittleEndian\" "
@@ -108,7 +115,14 @@ std::string write_vtu(const TetMesh& mesh) {
   out << "</Cells>\n<CellData Scalars=\"tag\">\n";
   write_array(out, "type=\"Int32\" Name=\"tag\"",
               std::vector<std::int32_t>(mesh.tags.begin(), mesh.tags.end()));
-  out << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  for (const Field& field : fields) write_array(out, array_name(field), field.elements);
+  out << "</CellData>\n";
+  if (!fields.empty()) {
+    out << "<PointData Scalars=\"" << fields.front().info.name << "\">\n";
+    for (const Field& field : fields) write_array(out, array_name(field), field.vertices);
+    out << "</PointData>\n";
+  }
+  out << "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   return out.take();
 }
 

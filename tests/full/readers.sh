@@ -10,6 +10,9 @@ cd "$work"
 for extension in msh mesh vtk vtu; do
   "$program" info run/mesh.msh --mend "mesh.$extension" --quiet >/dev/null
 done
+"$program" export run --frames 0..2 --quiet
+"$program" export run --frames 2 --format ply --fields von_mises -o surface --quiet
+"$program" export run --frames 2 --format obj -o surface --quiet
 /usr/bin/python3 - <<'PY' || fail "numpy or meshio"
 import json, meshio, numpy as np
 meshes = [meshio.read(f"mesh.{e}") for e in ("msh", "mesh", "vtk", "vtu")] + [meshio.read("run/mesh.msh")]
@@ -20,6 +23,17 @@ for m in meshes[1:]:
 n = len(meshes[0].points)
 state = np.load("run/states/frame_0002.npy")
 assert state.dtype == np.float64 and state.shape[1:] == (2, n, 3), state.shape
+vtu = meshio.read("run/export/frame_0002.vtu")
+assert np.array_equal(vtu.points, state[0, 0]), "exported points are not the state's"
+assert np.array_equal(vtu.cells_dict["tetra"], np.vstack([c.data for c in meshes[0].cells if c.type == "tetra"]))
+assert {"von_mises", "J", "energy_density", "displacement"} <= set(vtu.point_data) & set(vtu.cell_data), vtu
+assert np.allclose(vtu.point_data["displacement"], np.linalg.norm(state[0, 0] - meshes[0].points, axis=1))
+e = [meshes[0].points[vtu.cells_dict["tetra"]], vtu.points[vtu.cells_dict["tetra"]]]
+volumes = [np.linalg.det(x[:, 1:] - x[:, :1]) for x in e]
+assert np.allclose(vtu.cell_data["J"][0], volumes[1] / volumes[0])
+assert np.isclose((vtu.cell_data["energy_density"][0] * volumes[0]).sum() / 6, np.genfromtxt("run/energy.csv", delimiter=",", names=True)["elastic"][2])
+ply, obj = meshio.read("surface/frame_0002.ply"), meshio.read("surface/frame_0002.obj")
+assert np.allclose(ply.points, obj.points, atol=1e-15) and len(ply.point_data["von_mises"]) == len(ply.points)
 depth = np.load("run/aov/depth/frame_0002.npy")
 assert depth.dtype == np.float32 and depth.shape == (90, 160) and np.isfinite(depth).any(), depth.shape
 run = json.load(open("run/run.json"))

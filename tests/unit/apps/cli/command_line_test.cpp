@@ -105,12 +105,12 @@ TEST(CommandLine, TellsWhatIsWrong) {
       {{}, "no command given; lagomorph --help lists them"},
       {{"rnu"},
        "unknown command 'rnu'; did you mean 'run'? Commands are run, simulate, render, check, approve, "
-       "preview, plot, compare, info, material"},
+       "preview, plot, export, compare, info, material"},
       {{"publish"},
-       "unknown command 'publish'; commands are run, simulate, render, check, approve, preview, plot, compare, "
+       "unknown command 'publish'; commands are run, simulate, render, check, approve, preview, plot, export, compare, "
        "info, material"},
       {{"--quiet", "run"},
-       "'--quiet' where a command is expected (run, simulate, render, check, approve, preview, plot, compare, "
+       "'--quiet' where a command is expected (run, simulate, render, check, approve, preview, plot, export, compare, "
        "info, material); "
        "options follow "
        "the "

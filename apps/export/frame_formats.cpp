@@ -1,0 +1,69 @@
+#include "apps/export/frame_formats.h"
+
+#include <fmt/format.h>
+
+#include "apps/error.h"
+#include "sim/io/field_writers.h"
+#include "sim/io/formats.h"
+
+namespace lagomorph::apps {
+namespace {
+
+std::string vtu(const ExportedScene& scene, const sim::State& state) {
+  sim::TetMesh mesh = scene.model.mesh();
+  mesh.X = sim::as_points(state.q);
+  return sim::io::write_vtu(mesh, sim::fields_of(scene.model, state.q, scene.fields));
+}
+
+/// The surfaces of all bodies, one after the other.
+sim::TriMesh surface_mesh(const ExportedScene& scene, const sim::VecX& q) {
+  sim::TriMesh all;
+  for (const sim::Surface& surface : scene.surfaces) {
+    const int first = static_cast<int>(all.X.rows());
+    all.X.conservativeResize(first + surface.vertex_count(), 3);
+    all.X.bottomRows(surface.vertex_count()) = surface.positions(q);
+    for (const sim::Triangle& t : surface.triangles())
+      all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  return all;
+}
+
+/// Values of the tets' vertices on the surfaces, carried as a coordinate is.
+std::vector<double> surface_values(const ExportedScene& scene, const std::vector<double>& vertices) {
+  sim::VecX as_x = sim::VecX::Zero(3 * static_cast<Eigen::Index>(vertices.size()));
+  for (std::size_t v = 0; v < vertices.size(); ++v) as_x(3 * static_cast<Eigen::Index>(v)) = vertices[v];
+  std::vector<double> values;
+  for (const sim::Surface& surface : scene.surfaces) {
+    const sim::Points carried = surface.positions(as_x);
+    for (Eigen::Index i = 0; i < carried.rows(); ++i) values.push_back(carried(i, 0));
+  }
+  return values;
+}
+
+std::string ply(const ExportedScene& scene, const sim::State& state) {
+  std::vector<sim::Field> fields;
+  if (!scene.fields.empty()) fields = sim::fields_of(scene.model, state.q, scene.fields);
+  for (sim::Field& field : fields) field.vertices = surface_values(scene, field.vertices);
+  return sim::io::write_ply(surface_mesh(scene, state.q), fields);
+}
+
+std::string obj(const ExportedScene& scene, const sim::State& state) {
+  return sim::io::write_obj(surface_mesh(scene, state.q));
+}
+
+/// The explicit table: a new format is one row.
+constexpr FrameFormat formats[] = {
+    {"vtu", true, true, vtu}, {"ply", true, false, ply}, {"obj", false, false, obj}};
+
+}  // namespace
+
+const FrameFormat& find_format(std::string_view name) {
+  std::string names;
+  for (const FrameFormat& format : formats) {
+    if (name == format.name) return format;
+    names += (names.empty() ? "" : ", ") + std::string(format.name);
+  }
+  wrong_input(fmt::format("--format {}: unknown; known are {}", name, names));
+}
+
+}  // namespace lagomorph::apps

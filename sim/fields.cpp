@@ -1,0 +1,156 @@
+#include "sim/fields.h"
+
+#include <array>
+#include <cmath>
+
+#include "sim/error.h"
+#include "sim/kinematics.h"
+#include "sim/stress_source.h"
+
+namespace lagomorph::sim {
+namespace {
+
+/// What fields are made of.
+struct Shape {
+  const Model& model;
+  const VecX& q;
+  std::vector<Mat3> F;          // of each tet
+  std::vector<double> volumes;  // at rest [m^3]
+  ElementStates states;
+};
+
+Shape shape_of(const Model& model, const VecX& q) {
+  const TetMesh& mesh = model.mesh();
+  Shape shape{model, q, {}, {}, {}};
+  for (const Tet& tet : mesh.tets) {
+    TetCorners X;
+    for (int a = 0; a < 4; ++a) X.col(a) = mesh.X.row(tet[static_cast<std::size_t>(a)]).transpose();
+    shape.F.push_back(deformation_gradient(gather_corners(q, tet), dphi_dX(X)));
+    shape.volumes.push_back(std::abs(tet_volume(X)));
+  }
+  shape.states.P.assign(mesh.tets.size(), Mat3::Zero());
+  shape.states.psi.assign(mesh.tets.size(), 0.0);
+  shape.states.stiffness.assign(mesh.tets.size(), 0.0);
+  for (const auto& term : model.energies()) {
+    if (const auto* source = dynamic_cast<const StressSource*>(term.get()))
+      source->add_states(q, shape.states);
+  }
+  return shape;
+}
+
+using Values = std::vector<double>;
+
+/// A value for each tet.
+template <typename Value>
+Values by_tet(const Shape& shape, const Value& value) {
+  Values values(shape.F.size());
+  for (std::size_t j = 0; j < values.size(); ++j) values[j] = value(j);
+  return values;
+}
+
+Values stresses(const Shape& s) {
+  return by_tet(s, [&](std::size_t j) { return von_mises(cauchy_stress(s.states.P[j], s.F[j])); });
+}
+Values determinants(const Shape& s) {
+  return by_tet(s, [&](std::size_t j) { return s.F[j].determinant(); });
+}
+Values densities(const Shape& s) { return s.states.psi; }
+Values stiffnesses(const Shape& s) { return s.states.stiffness; }
+/// Of the centroid.
+Values displacements(const Shape& s) {
+  const TetMesh& mesh = s.model.mesh();
+  return by_tet(s, [&](std::size_t j) {
+    Vec3 sum = Vec3::Zero();
+    for (const int v : mesh.tets[j]) sum += s.q.segment<3>(3 * v) - mesh.X.row(v).transpose();
+    return 0.25 * sum.norm();
+  });
+}
+Values bodies(const Shape& s) {
+  Values values(s.F.size());
+  const std::vector<Body>& all = s.model.mesh().bodies;
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    for (int j = all[b].tets.begin; j < all[b].tets.end; ++j)
+      values[static_cast<std::size_t>(j)] = static_cast<double>(b);
+  }
+  return values;
+}
+
+Values vertex_means(const Shape& s, const Values& elements) {
+  const TetMesh& mesh = s.model.mesh();
+  Values sums(static_cast<std::size_t>(mesh.vertex_count())), volumes(sums.size());
+  for (std::size_t j = 0; j < mesh.tets.size(); ++j) {
+    for (const int v : mesh.tets[j]) {
+      sums[static_cast<std::size_t>(v)] += s.volumes[j] * elements[j];
+      volumes[static_cast<std::size_t>(v)] += s.volumes[j];
+    }
+  }
+  for (std::size_t v = 0; v < sums.size(); ++v) {
+    if (volumes[v] > 0) sums[v] /= volumes[v];
+  }
+  return sums;
+}
+
+/// Displacements are known at the vertices themselves.
+Values vertex_displacements(const Shape& s) {
+  const Points& X = s.model.mesh().X;
+  Values values;
+  for (int v = 0; v < s.model.mesh().vertex_count(); ++v)
+    values.push_back((s.q.segment<3>(3 * v) - X.row(v).transpose()).norm());
+  return values;
+}
+
+struct Row {
+  FieldInfo info;
+  Values (*elements)(const Shape&);
+  Values (*vertices)(const Shape&);  // nullptr: means of the elements
+};
+/// The explicit table: a new field is one row.
+constexpr std::array<Row, 6> table = {{
+    {{"von_mises", "Pa", "von Mises stress of the Cauchy stress"}, stresses, nullptr},
+    {{"J", "", "volume ratio det F"}, determinants, nullptr},
+    {{"energy_density", "J/m^3", "elastic energy per volume at rest"}, densities, nullptr},
+    {{"displacement", "m", "distance from the place at rest"}, displacements, vertex_displacements},
+    {{"stiffness", "Pa", "size of the material's moduli"}, stiffnesses, nullptr},
+    {{"body", "", "number of the body, from 0"}, bodies, nullptr},
+}};
+
+const Row& find_row(std::string_view name) {
+  std::string names;
+  for (const Row& row : table) {
+    if (name == row.info.name) return row;
+    names += (names.empty() ? "" : ", ") + std::string(row.info.name);
+  }
+  throw InputError("unknown field '" + std::string(name) + "'; valid ones are " + names);
+}
+
+}  // namespace
+
+Mat3 cauchy_stress(const Mat3& P, const Mat3& F) { return P * F.transpose() / F.determinant(); }
+
+double von_mises(const Mat3& stress) {
+  const Mat3 deviator = stress - stress.trace() / 3 * Mat3::Identity();
+  return std::sqrt(1.5) * deviator.norm();
+}
+
+std::vector<FieldInfo> field_table() {
+  std::vector<FieldInfo> all;
+  for (const Row& row : table) all.push_back(row.info);
+  return all;
+}
+
+const FieldInfo& find_field(std::string_view name) { return find_row(name).info; }
+
+std::vector<Field> fields_of(const Model& model, const VecX& q, const std::vector<std::string>& names) {
+  for (const std::string& name : names) find_row(name);
+  const Shape shape = shape_of(model, q);
+  std::vector<Field> fields;
+  for (const std::string& name : names) {
+    const Row& row = find_row(name);
+    Values elements = row.elements(shape);
+    Values vertices = row.vertices != nullptr ? row.vertices(shape) : vertex_means(shape, elements);
+    fields.push_back({row.info, std::move(elements), std::move(vertices)});
+  }
+  return fields;
+}
+
+}  // namespace lagomorph::sim

@@ -1,0 +1,138 @@
+#include "sim/fields.h"
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "sim/io/field_writers.h"
+#include "sim/kinematics.h"
+#include "tests/unit/sim/mesh_fixtures.h"
+
+namespace lagomorph::sim {
+namespace {
+
+constexpr double kMu = 3e5, kLambda = 7e5;
+
+BodyInput cube_body(int n, const std::string& model = "neo_hookean") {
+  BodyInput body{cube_mesh(n), {}};
+  body.settings.material = {};
+  body.settings.material.model = model;
+  body.settings.material.mu = kMu;
+  body.settings.material.lambda = kLambda;
+  return body;
+}
+
+/// q = A X.
+VecX mapped(const Model& model, const Mat3& A) {
+  VecX q = model.initial_state().q;
+  for (Eigen::Index v = 0; v < q.size() / 3; ++v) q.segment<3>(3 * v) = A * q.segment<3>(3 * v);
+  return q;
+}
+
+/// σ of the Neo-Hookean of the lecture at the principal stretches: ψ = mu/2 (J^(-2/3) I_C - 3) + lambda/2
+/// (J - 1)^2, so σ = mu J^(-5/3) (b - tr(b)/3 I) + lambda (J - 1) I.
+Vec3 neo_hookean_stress(const Vec3& stretch) {
+  const double J = stretch.prod();
+  const Vec3 b = stretch.cwiseAbs2();
+  return kMu * std::pow(J, -5.0 / 3) * (b - Vec3::Constant(b.sum() / 3)) + Vec3::Constant(kLambda * (J - 1));
+}
+
+TEST(Fields, VonMisesIsTheStressOfUniaxialLoading) {
+  Mat3 stress = Mat3::Zero();
+  stress(1, 1) = -5;
+  EXPECT_DOUBLE_EQ(von_mises(stress), 5);
+  EXPECT_NEAR(von_mises(7 * Mat3::Identity()), 0, 1e-14);
+  stress.setZero();
+  stress(0, 1) = stress(1, 0) = 2;
+  EXPECT_DOUBLE_EQ(von_mises(stress), 2 * std::sqrt(3.0));
+}
+
+TEST(Fields, OfAUniaxialStretchAreItsClosedForms) {
+  const Model model({cube_body(2)}, Vec3::Zero());
+  const Vec3 stretch(1.3, 0.9, 0.9);
+  const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  const auto fields = fields_of(model, mapped(model, turn * stretch.asDiagonal()), {"von_mises", "J"});
+  const Vec3 stress = neo_hookean_stress(stretch);
+  const double expected = std::abs(stress[0] - stress[1]);
+  ASSERT_EQ(fields.size(), 2u);
+  EXPECT_STREQ(fields[0].info.unit, "Pa");
+  for (const auto* values : {&fields[0].elements, &fields[0].vertices}) {
+    for (const double value : *values) EXPECT_NEAR(value, expected, 1e-9 * expected);
+  }
+  for (const auto* values : {&fields[1].elements, &fields[1].vertices}) {
+    for (const double value : *values) EXPECT_NEAR(value, stretch.prod(), 1e-13);
+  }
+}
+
+TEST(Fields, EnergyDensityAddsUpToTheEnergyOfEachBody) {
+  BodyInput soft = cube_body(2), other = cube_body(1, "stable_neo_hookean");
+  other.settings.translate = Vec3(4, 0, 0);
+  const Model model({soft, other}, Vec3::Zero());
+  VecX q = model.initial_state().q;
+  for (Eigen::Index i = 0; i < q.size(); ++i) q(i) += 0.03 * std::sin(static_cast<double>(7 * i));
+  const auto fields = fields_of(model, q, {"energy_density", "body", "stiffness"});
+  double sum = 0, value = 0;
+  for (std::size_t j = 0; j < model.mesh().tets.size(); ++j) {
+    TetCorners X;
+    for (int a = 0; a < 4; ++a) X.col(a) = model.mesh().X.row(model.mesh().tets[j][a]).transpose();
+    sum += std::abs(tet_volume(X)) * fields[0].elements[j];
+    EXPECT_EQ(fields[1].elements[j], j < 48 ? 0 : 1);
+    EXPECT_GT(fields[2].elements[j], kMu);
+  }
+  for (const auto& term : model.energies()) value += term->value(q);
+  EXPECT_NEAR(sum, value, 1e-12 * value);
+}
+
+TEST(Fields, VerticesHaveMeansByVolume) {
+  const Model model({cube_body(1)}, Vec3::Zero());
+  VecX q = model.initial_state().q;
+  q(0) += 0.2, q(7) -= 0.1;
+  const Field J = fields_of(model, q, {"J"}).at(0);
+  for (int v = 0; v < model.mesh().vertex_count(); ++v) {
+    double sum = 0, volume = 0;
+    for (std::size_t j = 0; j < model.mesh().tets.size(); ++j) {
+      TetCorners X;
+      bool has = false;
+      for (int a = 0; a < 4; ++a) {
+        X.col(a) = model.mesh().X.row(model.mesh().tets[j][a]).transpose();
+        has = has || model.mesh().tets[j][a] == v;
+      }
+      if (has) sum += tet_volume(X) * J.elements[j], volume += tet_volume(X);
+    }
+    EXPECT_NEAR(J.vertices[static_cast<std::size_t>(v)], sum / volume, 1e-13);
+  }
+}
+
+TEST(Fields, DisplacementIsTheDistanceFromRest) {
+  const Model model({cube_body(1)}, Vec3::Zero());
+  VecX q = model.initial_state().q;
+  for (Eigen::Index v = 0; v < q.size() / 3; ++v) q.segment<3>(3 * v) += Vec3(3, 0, 4);
+  const Field field = fields_of(model, q, {"displacement"}).at(0);
+  for (const double d : field.vertices) EXPECT_NEAR(d, 5, 1e-13);
+  for (const double d : field.elements) EXPECT_NEAR(d, 5, 1e-13);
+}
+
+TEST(Fields, RefuseANameThatIsNone) {
+  EXPECT_EQ(
+      error_of([] { find_field("von_mise"); }),
+      "unknown field 'von_mise'; valid ones are von_mises, J, energy_density, displacement, stiffness, body");
+}
+
+TEST(Fields, AreWrittenBesideAMeshThatReadsBack) {
+  const Model model({cube_body(1)}, Vec3::Zero());
+  const auto fields = fields_of(model, model.initial_state().q, {"J", "displacement"});
+  const TempFolder folder;
+  const auto file = folder.write("state.vtu", io::write_vtu(model.mesh(), fields));
+  Remarks remarks;
+  const TetMesh back = read_tet_mesh(file, remarks);
+  EXPECT_EQ(back.tets, model.mesh().tets);
+  EXPECT_EQ(back.X, model.mesh().X);
+  const TriMesh surface{model.mesh().X, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
+  const std::string ply = io::write_ply(surface, fields);
+  EXPECT_NE(ply.find("property double z\nproperty double J\nproperty double displacement\n"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace lagomorph::sim
