@@ -17,6 +17,7 @@ ExitStatus preview_command(const Options&);    // what a run is, to look at
 ExitStatus export_command(const Options&);     // a run's states for other tools
 ExitStatus plot_command(const Options&);       // diagrams of a run
 ExitStatus compare_command(const Options&);    // two pictures, one verdict
+ExitStatus refine_command(const Options&);     // a finer mesh, or one of higher order
 ExitStatus info_command(const Options&);       // what a mesh, a scene or a run is
 ExitStatus material_command(const Options&);   // a material's energy, stress and stiffness
 

@@ -1,19 +1,30 @@
 #include "sim/block_hessian.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <limits>
 
 namespace lagomorph::sim {
 
-BlockPattern::BlockPattern(int vertex_count, const std::vector<Tet>& tets) {
+BlockPattern::BlockPattern(int vertex_count, const std::vector<Tet>& tets,
+                           const std::vector<Midsides>& midsides) {
   // Count the entries of each column with repeats, place them, then sort and drop the repeats.
   std::vector<std::size_t> place(static_cast<std::size_t>(vertex_count) + 1, 0);
   const auto each_pair = [&](auto&& visit) {
     for (int v = 0; v < vertex_count; ++v) visit(v, v);
-    for (const Tet& tet : tets)
-      for (int a = 0; a < 4; ++a)
-        for (int b = a + 1; b < 4; ++b) visit(std::min(tet[a], tet[b]), std::max(tet[a], tet[b]));
+    std::array<int, 10> nodes;
+    for (std::size_t j = 0; j < tets.size(); ++j) {
+      std::copy(tets[j].begin(), tets[j].end(), nodes.begin());
+      std::size_t count = 4;
+      if (!midsides.empty() && midsides[j][0] >= 0) {
+        std::copy(midsides[j].begin(), midsides[j].end(), nodes.begin() + 4);
+        count = 10;
+      }
+      for (std::size_t a = 0; a < count; ++a)
+        for (std::size_t b = a + 1; b < count; ++b)
+          visit(std::min(nodes[a], nodes[b]), std::max(nodes[a], nodes[b]));
+    }
   };
   each_pair([&](int, int column) { ++place[static_cast<std::size_t>(column) + 1]; });
   for (std::size_t v = 0; v < place.size() - 1; ++v) place[v + 1] += place[v];

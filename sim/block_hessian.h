@@ -17,8 +17,8 @@ enum class HessianKind {
 /// block columns, rows ascending, each diagonal block present. Made once a topology.
 class BlockPattern {
 public:
-  /// Blocks of each pair of vertices that share a tet.
-  BlockPattern(int vertex_count, const std::vector<Tet>& tets);
+  /// Blocks of each pair of vertices that share a tet; `midsides` are as in a TetMesh.
+  BlockPattern(int vertex_count, const std::vector<Tet>& tets, const std::vector<Midsides>& midsides = {});
 
   int vertex_count() const { return static_cast<int>(starts_.size()) - 1; }
   int block_count() const { return static_cast<int>(rows_.size()); }

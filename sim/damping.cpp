@@ -52,8 +52,8 @@ void check(const DampingSettings& damping, const std::string& where) {
 
 Damping::Damping(const TetMesh& mesh, const std::vector<DampingSettings>& of_bodies, VecX mass_blocks,
                  const std::shared_ptr<const BlockPattern>& pattern) {
-  std::vector<int> viscous;
-  std::vector<Viscosity> viscosities;
+  std::vector<int> linear, quadratic;  // tets that are viscous
+  std::vector<Viscosity> of_linear, of_quadratic;
   bool is_damped = false;
   for (std::size_t b = 0; b < of_bodies.size(); ++b) {
     const DampingSettings& d = of_bodies[b];
@@ -65,14 +65,19 @@ Damping::Damping(const TetMesh& mesh, const std::vector<DampingSettings>& of_bod
     is_damped |= d.mass > 0.0 || d.stiffness > 0.0 || d.viscosity > 0.0;
     if (d.viscosity == 0.0) continue;
     for (int j = tets.begin; j < tets.end; ++j) {
-      viscous.push_back(j);
-      viscosities.push_back({d.viscosity});
+      const bool is_quadratic = mesh.is_quadratic(static_cast<std::size_t>(j));
+      (is_quadratic ? quadratic : linear).push_back(j);
+      (is_quadratic ? of_quadratic : of_linear).push_back({d.viscosity});
     }
   }
   if (!is_damped) bodies_.clear();
   mass_blocks_ = std::move(mass_blocks);
-  if (!viscous.empty())
-    viscosity_ = std::make_unique<Elasticity<Viscosity>>(mesh, viscous, std::move(viscosities), pattern);
+  if (!linear.empty())
+    viscosity_.push_back(
+        std::make_unique<Elasticity<Viscosity, Tet4>>(mesh, linear, std::move(of_linear), pattern));
+  if (!quadratic.empty())
+    viscosity_.push_back(
+        std::make_unique<Elasticity<Viscosity, Tet10>>(mesh, quadratic, std::move(of_quadratic), pattern));
 }
 
 void Damping::assemble(const std::vector<std::unique_ptr<Energy>>& energies, const VecX& q,
@@ -86,7 +91,7 @@ void Damping::assemble(const std::vector<std::unique_ptr<Energy>>& energies, con
       C.block(k).diagonal().array() += body.alpha * mass_blocks_[k];
     }
   }
-  if (viscosity_) viscosity_->add_hessian(q, 1.0, HessianKind::exact, C);
+  for (const auto& term : viscosity_) term->add_hessian(q, 1.0, HessianKind::exact, C);
 }
 
 }  // namespace lagomorph::sim

@@ -34,7 +34,7 @@ private:
   std::vector<Body> bodies_;  // none when nothing is damped
   bool has_beta_ = false;
   VecX mass_blocks_;
-  std::unique_ptr<Energy> viscosity_;  // nullptr when there is none
+  std::vector<std::unique_ptr<Energy>> viscosity_;  // of each kind of element that has any
 };
 
 }  // namespace lagomorph::sim

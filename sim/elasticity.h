@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "sim/compensated_sum.h"
-#include "sim/element_matrix.h"
+#include "sim/element.h"
 #include "sim/energy.h"
 #include "sim/inversion.h"
-#include "sim/kinematics.h"
 #include "sim/materials/energy_density.h"
 #include "sim/parallel.h"
 #include "sim/stress_source.h"
@@ -19,22 +18,27 @@
 
 namespace lagomorph::sim {
 
-/// V = Σ_j vol_j ψ(F_j) over some of a mesh's tets, with a material of its own for each of them. (lecture,
-/// "Potential energy")
-template <EnergyDensity Material>
+/// V = Σ_j Σ_p vol_jp ψ(F_jp) over some of a mesh's tets and the quadrature points of each, with a material
+/// of its own for each of them. (lecture, "Potential energy")
+template <EnergyDensity Material, FiniteElement Element = Tet4>
 class Elasticity : public Energy, public StressSource {
 public:
   /// `elements` are tets of the mesh, `materials` theirs; `pattern` is that of the whole mesh.
   Elasticity(const TetMesh& mesh, const std::vector<int>& elements, std::vector<Material> materials,
              const std::shared_ptr<const BlockPattern>& pattern)
-      : Elasticity(make_elements(mesh, elements), std::move(materials), pattern) {}
+      : Elasticity(make_elements(mesh, elements), std::move(materials), pattern) {
+    tets_ = elements;
+  }
 
   std::string_view name() const override { return Material::kName; }
 
   double value(const VecX& q) const override {
     std::vector<double> energy(elements_.size());
-    for_each_element(kCheap,
-                     [&](std::size_t j) { energy[j] = elements_[j].volume * materials_[j].psi(F(j, q)); });
+    for_each_element(kCheap, [&](std::size_t j) {
+      const Edges x = edges(j, q);
+      for (std::size_t p = 0; p < P; ++p)
+        energy[j] += elements_[j].volumes[p] * materials_[j].psi(x * elements_[j].D[p]);
+    });
     CompensatedSum sum;
     for (const double e : energy) sum.add(e);
     return sum.value();
@@ -43,36 +47,51 @@ public:
   /// ψ is small only by what its terms take off each other, each of the size of the moduli.
   double value_scale(const VecX&) const override { return stiffness_volume_; }
 
-  /// f_j = -vol_j B_jᵀ vec(∂ψ/∂F); the part of corner a of its negative is vol_j (∂ψ/∂F) D_a.
+  /// f_j = -Σ_p vol_jp B_jpᵀ vec(∂ψ/∂F); the part of node a of its negative is Σ_p vol_jp (∂ψ/∂F) D_a.
   void add_gradient(const VecX& q, double scale, VecX& g) const override {
-    std::vector<double> vectors(TetGather::kVectorSize * elements_.size());
+    std::vector<double> vectors(kVectorSize * elements_.size());
     for_each_element(kCheap, [&](std::size_t j) {
-      Eigen::Map<TetCorners> g_j(vectors.data() + TetGather::kVectorSize * j);
-      g_j.rightCols<3>() =
-          elements_[j].volume * materials_[j].dpsi_dF(F(j, q)) * elements_[j].D123.transpose();
-      g_j.col(0) = -g_j.rightCols<3>().rowwise().sum();
+      Eigen::Map<Eigen::Matrix<double, 3, N>> g_j(vectors.data() + kVectorSize * j);
+      const Edges x = edges(j, q);
+      for (std::size_t p = 0; p < P; ++p) {
+        const auto& D = elements_[j].D[p];
+        g_j.template rightCols<N - 1>() +=
+            elements_[j].volumes[p] * materials_[j].dpsi_dF(x * D) * D.transpose();
+      }
+      g_j.col(0) = -g_j.template rightCols<N - 1>().rowwise().sum();
     });
     gather_.add_vectors(vectors, scale, g);
   }
 
-  /// K_j = vol_j B_jᵀ (∂²ψ/∂F²) B_j.
+  /// K_j = Σ_p vol_jp B_jpᵀ (∂²ψ/∂F²) B_jp.
   void add_hessian(const VecX& q, double scale, HessianKind kind, BlockHessian& H) const override {
     std::vector<double>& matrices = H.scratch();
-    matrices.resize(TetGather::kMatrixSize * elements_.size());
+    matrices.resize(kMatrixSize * elements_.size());
     for_each_element(kDear, [&](std::size_t j) {
-      const Mat3 F_j = F(j, q);
-      const bool exact = kind == HessianKind::exact;
-      const Mat9 h = elements_[j].volume *
-                     (exact ? materials_[j].d2psi_dF2(F_j) : materials_[j].projected_d2psi_dF2(F_j));
-      element_blocks(h, elements_[j].D123, matrices.data() + TetGather::kMatrixSize * j);
+      double* blocks = matrices.data() + kMatrixSize * j;
+      std::fill_n(blocks, kMatrixSize, 0.0);
+      const Edges x = edges(j, q);
+      for (std::size_t p = 0; p < P; ++p) {
+        const Mat3 F = x * elements_[j].D[p];
+        const bool exact = kind == HessianKind::exact;
+        const Mat9 h = elements_[j].volumes[p] *
+                       (exact ? materials_[j].d2psi_dF2(F) : materials_[j].projected_d2psi_dF2(F));
+        add_inner_blocks<N>(h, elements_[j].D[p], blocks);
+      }
+      complete_blocks<N>(blocks);
     });
     gather_.add_matrices(matrices, scale, H);
   }
 
+  /// No quadrature point may invert.
   double max_step(const VecX& q, const VecX& dq) const override {
     if constexpr (Material::kNeedsPositiveJ) {
-      std::vector<double> steps(elements_.size());
-      for_each_element(kCheap, [&](std::size_t j) { steps[j] = step_without_inversion(F(j, q), F(j, dq)); });
+      std::vector<double> steps(elements_.size(), 1.0);
+      for_each_element(kCheap, [&](std::size_t j) {
+        const Edges x = edges(j, q), dx = edges(j, dq);
+        for (const auto& D : elements_[j].D)
+          steps[j] = std::min(steps[j], step_without_inversion(x * D, dx * D));
+      });
       double smallest = 1.0;
       for (const double s : steps) smallest = std::min(smallest, s);
       return smallest;
@@ -83,60 +102,61 @@ public:
 
   void add_states(const VecX& q, ElementStates& states) const override {
     for_each_element(kCheap, [&](std::size_t j) {
-      const Mat3 F_j = F(j, q);
-      const auto tet = static_cast<std::size_t>(elements_[j].tet);
-      states.P[tet] += materials_[j].dpsi_dF(F_j);
-      states.psi[tet] += materials_[j].psi(F_j);
+      const Edges x = edges(j, q);
+      const auto tet = static_cast<std::size_t>(tets_[j]);
+      double whole = 0.0;
+      for (const double volume : elements_[j].volumes) whole += volume;
+      for (std::size_t p = 0; p < P; ++p) {
+        const Mat3 F = x * elements_[j].D[p];
+        const double part = elements_[j].volumes[p] / whole;
+        states.P[tet] += part * materials_[j].dpsi_dF(F);
+        states.psi[tet] += part * materials_[j].psi(F);
+      }
       states.stiffness[tet] += materials_[j].stiffness();
     });
   }
 
 private:
+  static constexpr int N = Element::kNodes;
+  static constexpr std::size_t P = Element::kPoints;
+  static constexpr std::size_t kVectorSize = TetGather::vector_size(N),
+                               kMatrixSize = TetGather::matrix_size(N);
   static constexpr int kCheap = 256, kDear = 64;  // elements a task
+  using Rule = ElementRule<N, Element::kPoints>;
+  using Edges = Eigen::Matrix<double, 3, N - 1>;
 
-  struct Element {
-    Tet corners;    // ascending, whatever the orientation
-    Mat3 D123;      // the rows of D of the last three corners [1/m]
-    double volume;  // [m^3]
-    int tet;        // of the mesh
-  };
-
-  Elasticity(std::vector<Element> elements, std::vector<Material> materials,
+  Elasticity(std::vector<Rule> elements, std::vector<Material> materials,
              const std::shared_ptr<const BlockPattern>& pattern)
       : elements_(std::move(elements)),
         materials_(std::move(materials)),
-        gather_(corners_of(elements_), pattern) {
+        gather_(nodes_of(elements_), N, pattern) {
     for (std::size_t j = 0; j < elements_.size(); ++j)
-      stiffness_volume_ += elements_[j].volume * materials_[j].stiffness();
+      for (const double volume : elements_[j].volumes)
+        stiffness_volume_ += volume * materials_[j].stiffness();
   }
 
-  static std::vector<Element> make_elements(const TetMesh& mesh, const std::vector<int>& tets) {
-    std::vector<Element> elements;
+  static std::vector<Rule> make_elements(const TetMesh& mesh, const std::vector<int>& tets) {
+    std::vector<Rule> elements;
     elements.reserve(tets.size());
-    for (const int j : tets) {
-      Element e;
-      e.corners = mesh.tets[static_cast<std::size_t>(j)];
-      std::sort(e.corners.begin(), e.corners.end());
-      TetCorners X;
-      for (int a = 0; a < 4; ++a) X.col(a) = mesh.X.row(e.corners[a]).transpose();
-      e.D123 = dphi_dX(X).bottomRows<3>();
-      e.volume = std::abs(tet_volume(X));
-      e.tet = j;
-      elements.push_back(e);
-    }
+    for (const int j : tets) elements.push_back(Element::rule(mesh, static_cast<std::size_t>(j)));
     return elements;
   }
 
-  static std::vector<Tet> corners_of(const std::vector<Element>& elements) {
-    std::vector<Tet> tets;
-    tets.reserve(elements.size());
-    for (const Element& e : elements) tets.push_back(e.corners);
-    return tets;
+  static std::vector<int> nodes_of(const std::vector<Rule>& elements) {
+    std::vector<int> nodes;
+    nodes.reserve(static_cast<std::size_t>(N) * elements.size());
+    for (const Rule& e : elements) nodes.insert(nodes.end(), e.nodes.begin(), e.nodes.end());
+    return nodes;
   }
 
-  /// Deformation gradient of element j; of a displacement, the change of it.
-  Mat3 F(std::size_t j, const VecX& q) const {
-    return edge_matrix(gather_corners(q, elements_[j].corners)) * elements_[j].D123;
+  /// Positions of the other nodes from the first, one a column: F = edges D, which rounds less far from the
+  /// origin. Of a displacement, the change of it.
+  Edges edges(std::size_t j, const VecX& q) const {
+    const auto& nodes = elements_[j].nodes;
+    Edges x;
+    for (std::size_t a = 1; a < nodes.size(); ++a)
+      x.col(static_cast<Eigen::Index>(a) - 1) = q.segment<3>(3 * nodes[a]) - q.segment<3>(3 * nodes[0]);
+    return x;
   }
 
   template <class Body>
@@ -146,7 +166,8 @@ private:
     });
   }
 
-  std::vector<Element> elements_;
+  std::vector<Rule> elements_;
+  std::vector<int> tets_;  // of the mesh, which these are
   std::vector<Material> materials_;
   TetGather gather_;
   double stiffness_volume_ = 0.0;  // Σ vol_j · stiffness [J]

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "sim/element.h"
 #include "sim/error.h"
-#include "sim/kinematics.h"
 #include "sim/stress_source.h"
 
 namespace lagomorph::sim {
@@ -14,20 +14,27 @@ namespace {
 struct Shape {
   const Model& model;
   const VecX& q;
-  std::vector<Mat3> F;          // of each tet
+  std::vector<Mat3> F;          // of each tet; of a quadratic one the mean
   std::vector<double> volumes;  // at rest [m^3]
   ElementStates states;
 };
 
+template <int N, int P>
+void add_mean(const ElementRule<N, P>& rule, const VecX& q, Shape& shape) {
+  double volume = 0.0;
+  for (const double part : rule.volumes) volume += part;
+  const std::array<Mat3, P> F = deformation_gradients(rule, q);
+  Mat3 mean = Mat3::Zero();
+  for (std::size_t p = 0; p < P; ++p) mean += rule.volumes[p] / volume * F[p];
+  shape.F.push_back(mean);
+  shape.volumes.push_back(volume);
+}
+
 Shape shape_of(const Model& model, const VecX& q) {
   const TetMesh& mesh = model.mesh();
   Shape shape{model, q, {}, {}, {}};
-  for (const Tet& tet : mesh.tets) {
-    TetCorners X;
-    for (int a = 0; a < 4; ++a) X.col(a) = mesh.X.row(tet[static_cast<std::size_t>(a)]).transpose();
-    shape.F.push_back(deformation_gradient(gather_corners(q, tet), dphi_dX(X)));
-    shape.volumes.push_back(std::abs(tet_volume(X)));
-  }
+  for (std::size_t j = 0; j < mesh.tets.size(); ++j)
+    mesh.is_quadratic(j) ? add_mean(Tet10::rule(mesh, j), q, shape) : add_mean(Tet4::rule(mesh, j), q, shape);
   shape.states.P.assign(mesh.tets.size(), Mat3::Zero());
   shape.states.psi.assign(mesh.tets.size(), 0.0);
   shape.states.stiffness.assign(mesh.tets.size(), 0.0);
@@ -79,10 +86,13 @@ Values vertex_means(const Shape& s, const Values& elements) {
   const TetMesh& mesh = s.model.mesh();
   Values sums(static_cast<std::size_t>(mesh.vertex_count())), volumes(sums.size());
   for (std::size_t j = 0; j < mesh.tets.size(); ++j) {
-    for (const int v : mesh.tets[j]) {
+    const auto add = [&](int v) {
       sums[static_cast<std::size_t>(v)] += s.volumes[j] * elements[j];
       volumes[static_cast<std::size_t>(v)] += s.volumes[j];
-    }
+    };
+    for (const int v : mesh.tets[j]) add(v);
+    if (!mesh.is_quadratic(j)) continue;
+    for (const int v : mesh.midsides[j]) add(v);
   }
   for (std::size_t v = 0; v < sums.size(); ++v) {
     if (volumes[v] > 0) sums[v] /= volumes[v];

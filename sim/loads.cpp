@@ -60,19 +60,22 @@ public:
     for (int v = 0; v < body_.vertices.size(); ++v)
       if (marks_[static_cast<std::size_t>(v)]) f.segment<3>(3 * v) += total / static_cast<double>(count);
   }
-  /// Linear shape functions: a third of each triangle's force to each of its corners.
+  /// ∫ φ over a boundary triangle: a third of it for each corner; of a quadratic tet's, for each midside node.
   bool add_traction(const Vec3& traction, double pressure) {
     bool any = false;
-    for (const Triangle& t : boundary_triangles(mesh_, body_.tets)) {
-      if (!all_marked(t)) continue;
+    for (const BoundaryFace& face : boundary_faces(mesh_, body_.tets)) {
+      if (!all_marked(face.corners)) continue;
       any = true;
+      const Triangle& t = face.corners;
       const Vec3 a = corner(t[0]), b = corner(t[1]), c = corner(t[2]);
       const Vec3 area = 0.5 * (b - a).cross(c - a);  // along the outward normal
-      for (const int v : t) at(v) += (area.norm() * traction - pressure * area) / 3.0;
+      for (const int v : face.midsides[0] < 0 ? t : face.midsides)
+        at(v) += (area.norm() * traction - pressure * area) / 3.0;
     }
     return any;
   }
-  /// Likewise a quarter of each tet's: f [N/m^3].
+  /// Likewise over a tet: a quarter for each corner; of a quadratic one -1/20, and 1/5 for each midside node. f
+  /// [N/m^3].
   bool add_body_force(const Vec3& density_of_force) {
     bool any = false;
     const VecX X = Eigen::Map<const VecX>(mesh_.X.data(), mesh_.X.size());
@@ -80,7 +83,11 @@ public:
       const Tet& tet = mesh_.tets[static_cast<std::size_t>(j)];
       if (!all_marked(tet)) continue;
       any = true;
-      for (const int v : tet) at(v) += 0.25 * tet_volume(gather_corners(X, tet)) * density_of_force;
+      const Vec3 whole = tet_volume(gather_corners(X, tet)) * density_of_force;
+      const bool is_quadratic = mesh_.is_quadratic(static_cast<std::size_t>(j));
+      for (const int v : tet) at(v) += (is_quadratic ? -0.05 : 0.25) * whole;
+      if (!is_quadratic) continue;
+      for (const int v : mesh_.midsides[static_cast<std::size_t>(j)]) at(v) += 0.2 * whole;
     }
     return any;
   }

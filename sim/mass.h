@@ -11,6 +11,15 @@ Mat12 element_mass(double density, double volume);
 /// The same mass, a quarter at each corner.
 Mat12 element_mass_lumped(double density, double volume);
 
+/// m_rs of a quadratic tet, the multiples of I, from ∫ λ_0^i λ_1^j λ_2^k λ_3^l dX = 6 vol i! j! k! l! / (3 +
+/// i + j
+/// + k + l)!, so exact; nodes as Tet10's. [kg]
+Eigen::Matrix<double, 10, 10> quadratic_masses(double density, double volume);
+/// The same mass on the diagonal, in proportion to the consistent one's: 1/36 at each corner and 4/27 at each
+/// midside node. Sums of rows would be negative at the corners. [Hinton, Rock, Zienkiewicz 1976, "A note on
+/// mass lumping and related processes in the finite element method"]
+Eigen::Matrix<double, 10, 10> quadratic_masses_lumped(double density, double volume);
+
 struct BodyMass {
   double density = 1000.0;  // [kg/m^3]
   bool lumped = false;

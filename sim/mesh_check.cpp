@@ -9,6 +9,7 @@
 
 #include "sim/error.h"
 #include "sim/mesh_topology.h"
+#include "sim/midsides.h"
 #include "sim/shape_functions.h"
 #include "sim/text.h"
 
@@ -120,7 +121,7 @@ void check_orientation(TetMesh& mesh, const std::string& origin, Remarks& remark
   }
   if (offenders.empty()) return;
   if (inverted == mesh.tets.size()) {
-    for (Tet& tet : mesh.tets) std::swap(tet[2], tet[3]);
+    for (std::size_t j = 0; j < mesh.tets.size(); ++j) turn_tet(mesh, j);
     remarks.push_back(origin + ": turned all " + counted(mesh.tet_count(), "tet") +
                       ", which were inverted throughout");
     return;
@@ -139,6 +140,10 @@ std::vector<int> stray_vertices(const TetMesh& mesh) {
   std::vector<char> used(static_cast<std::size_t>(mesh.vertex_count()), 0);
   for (const Tet& tet : mesh.tets) {
     for (const int corner : tet) used[static_cast<std::size_t>(corner)] = 1;
+  }
+  for (std::size_t j = 0; j < mesh.midsides.size(); ++j) {
+    for (const int node : mesh.midsides[j])
+      if (node >= 0) used[static_cast<std::size_t>(node)] = 1;
   }
   std::vector<int> strays;
   for (std::size_t v = 0; v < used.size(); ++v) {
@@ -263,6 +268,7 @@ void validate_tet_mesh(const TetMesh& mesh, const std::string& origin) {
 
 void check_tet_mesh(TetMesh& mesh, const std::string& origin, Remarks& remarks, const MeshChecks& checks) {
   validate_tet_mesh(mesh, origin);
+  check_midsides(mesh, origin, checks);
   if (checks.orientation) check_orientation(mesh, origin, remarks);
   check_strays(mesh, origin, checks.strays, remarks);
   remark_coincident(mesh, origin, remarks);
@@ -318,6 +324,10 @@ int drop_stray_vertices(TetMesh& mesh) {
   const int dropped = keep_vertices(mesh.X, keep, renumbered);
   for (Tet& tet : mesh.tets) {
     for (int& corner : tet) corner = renumbered[static_cast<std::size_t>(corner)];
+  }
+  for (Midsides& midsides : mesh.midsides) {
+    for (int& node : midsides)
+      if (node >= 0) node = renumbered[static_cast<std::size_t>(node)];
   }
   int begin = 0;
   for (Body& body : mesh.bodies) {

@@ -10,9 +10,9 @@ namespace lagomorph::sim {
 
 /// Checks counts, index ranges, finite numbers, orientation, overlaps, stray and coincident vertices, and the
 /// surface. A mesh inverted throughout is turned and remarked; single inverted or flat tets (volume at most
-/// 1e-10 of the longest edge cubed), two tets on the same side of a face, stray vertices, indices out of
-/// range, NaN throw InputError. Coincident vertices and a surface that is not closed or not manifold are
-/// remarked. `origin` is the file's name.
+/// 1e-10 of the longest edge cubed), two tets on the same side of a face, stray vertices, midside nodes off
+/// the middle of their edge, indices out of range, NaN throw InputError. Coincident vertices and a surface
+/// that is not closed or not manifold are remarked. `origin` is the file's name.
 void check_tet_mesh(TetMesh&, const std::string& origin, Remarks&, const MeshChecks& = {});
 /// Index ranges and finite numbers throw InputError. Triangles with a corner twice and vertices of no
 /// triangle are dropped and remarked; triangles without area, a surface that is not closed, not manifold or

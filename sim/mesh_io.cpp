@@ -15,6 +15,7 @@ struct TetFormat {
   TetMesh (*read)(const io::File&, Remarks&);
   std::string (*write)(const TetMesh&);
   std::string_view partner;  // the other file of a pair
+  bool quadratic = true;     // whether 10-node tetrahedra are written
 };
 
 struct TriFormat {
@@ -24,7 +25,7 @@ struct TriFormat {
 };
 
 constexpr std::array kTetFormats = {
-    TetFormat{".mesh", io::read_medit, io::write_medit, ""},
+    TetFormat{".mesh", io::read_medit, io::write_medit, "", false},
     TetFormat{".msh", io::read_gmsh, io::write_gmsh, ""},
     TetFormat{".node", io::read_tetgen_node, io::write_tetgen_node, ".ele"},
     TetFormat{".ele", io::read_tetgen_ele, io::write_tetgen_ele, ".node"},
@@ -64,6 +65,19 @@ const auto& find_format(const Table& table, std::string_view extension, const st
 
 }  // namespace
 
+void io::add_tet(TetMesh& mesh, std::span<const int> nodes, int tag) {
+  if (nodes.size() == 10 || !mesh.midsides.empty()) mesh.midsides.resize(mesh.tets.size() + 1, kNoMidsides);
+  if (nodes.size() == 10) std::copy(nodes.begin() + 4, nodes.end(), mesh.midsides.back().begin());
+  mesh.tets.push_back({nodes[0], nodes[1], nodes[2], nodes[3]});
+  mesh.tags.push_back(tag);
+}
+
+std::vector<int> io::nodes_of(const TetMesh& mesh, std::size_t tet) {
+  std::vector<int> nodes(mesh.tets[tet].begin(), mesh.tets[tet].end());
+  if (mesh.is_quadratic(tet)) nodes.insert(nodes.end(), mesh.midsides[tet].begin(), mesh.midsides[tet].end());
+  return nodes;
+}
+
 TetMesh io::parse_tet_mesh(const File& file, Remarks& remarks, const MeshChecks& checks) {
   const std::filesystem::path path = file.path;
   TetMesh mesh = find_format(kTetFormats, path.extension().string(), file.path, "a tetrahedral mesh")
@@ -102,6 +116,10 @@ std::string write_tet_mesh(const TetMesh& mesh, std::string_view extension, cons
   TetMesh checked = mesh;
   Remarks remarks;
   check_tet_mesh(checked, origin, remarks, checks);
+  if (!mesh.midsides.empty() && !format.quadratic) {
+    throw InputError(origin +
+                     ": it has 10-node tetrahedra, which are written as .msh, .node, .ele, .vtk or .vtu");
+  }
   return format.write(checked);
 }
 

@@ -195,6 +195,42 @@ std::vector<Triangle> boundary_triangles(const TetMesh& mesh, const FaceMatch& m
   return triangles;
 }
 
+int midside(const Midsides& midsides, int a, int b) {
+  std::size_t e = 0;
+  while (std::minmax(kTetEdges[e][0], kTetEdges[e][1]) != std::minmax(a, b)) ++e;
+  return midsides[e];
+}
+
+std::vector<BoundaryFace> boundary_faces(const TetMesh& mesh, Range tets) {
+  const FaceMatch match = match_faces(mesh, tets);
+  std::vector<BoundaryFace> faces;
+  for (std::size_t face = 0; face < match.other.size(); ++face) {
+    if (match.other[face] != FaceMatch::kBoundary) continue;
+    const std::size_t j = static_cast<std::size_t>(tets.begin) + face / 4;
+    BoundaryFace& added =
+        faces.emplace_back(BoundaryFace{tet_face(mesh.tets[j], static_cast<int>(face % 4)), {-1, -1, -1}});
+    if (!mesh.is_quadratic(j)) continue;
+    const auto& corner = kTetFaces[face % 4];
+    for (std::size_t k = 0; k < 3; ++k)
+      added.midsides[k] = midside(mesh.midsides[j], corner[k], corner[(k + 1) % 3]);
+  }
+  return faces;
+}
+
+std::vector<Triangle> drawn_boundary(const TetMesh& mesh, Range tets) {
+  std::vector<Triangle> triangles;
+  for (const BoundaryFace& face : boundary_faces(mesh, tets)) {
+    const auto [a, b, c] = face.corners;
+    const auto [ab, bc, ca] = face.midsides;
+    if (ab < 0) {
+      triangles.push_back(face.corners);
+    } else {
+      triangles.insert(triangles.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+  }
+  return triangles;
+}
+
 std::vector<Triangle> boundary_triangles(const TetMesh& mesh, Range tets) {
   return boundary_triangles(mesh, match_faces(mesh, tets), tets);
 }

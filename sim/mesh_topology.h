@@ -33,6 +33,19 @@ FaceMatch match_faces(const TetMesh&, Range tets);
 /// The faces that no other tet has, in the order of the tets.
 std::vector<Triangle> boundary_triangles(const TetMesh&, const FaceMatch&, Range tets);
 
+/// The same as it is drawn: of a quadratic tet's face the four triangles between its six nodes.
+std::vector<Triangle> drawn_boundary(const TetMesh&, Range tets);
+
+/// A triangle of the boundary, counter-clockwise from outside.
+struct BoundaryFace {
+  Triangle corners;
+  Triangle midsides;  // between corners 0 1, 1 2 and 2 0 of a quadratic tet's; of a linear one's -1
+};
+std::vector<BoundaryFace> boundary_faces(const TetMesh&, Range tets);
+
+/// The midside node of a tet between two of its corners, 0..3. The tet must be quadratic.
+int midside(const Midsides&, int a, int b);
+
 /// What there is of edges without exactly two triangles of opposite sense, and of vertices where several fans
 /// meet.
 struct SurfaceTopology {

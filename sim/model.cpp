@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "sim/compensated_sum.h"
+#include "sim/element.h"
 #include "sim/error.h"
 #include "sim/gravity.h"
 #include "sim/kinematics.h"
@@ -59,6 +60,14 @@ void append(const TetMesh& body, const std::string& name, TetMesh& all) {
   for (Tet tet : body.tets) {
     for (int& v : tet) v += vertices.begin;
     all.tets.push_back(tet);
+  }
+  if (!body.midsides.empty() || !all.midsides.empty()) {
+    all.midsides.resize(static_cast<std::size_t>(tets.begin), kNoMidsides);
+    for (std::size_t j = 0; j < body.tets.size(); ++j) {
+      all.midsides.push_back(body.is_quadratic(j) ? body.midsides[j] : kNoMidsides);
+      if (!body.is_quadratic(j)) continue;
+      for (int& v : all.midsides.back()) v += vertices.begin;
+    }
   }
   all.tags.insert(all.tags.end(), body.tags.begin(), body.tags.end());
   all.bodies.push_back({name, vertices, tets});
@@ -152,7 +161,7 @@ Model::Model(std::vector<BodyInput> bodies, const Vec3& gravity) {
     damping.push_back(settings.damping);
   }
   hold(holds, names_of_holds);
-  pattern_ = std::make_shared<const BlockPattern>(mesh_.vertex_count(), mesh_.tets);
+  pattern_ = std::make_shared<const BlockPattern>(mesh_.vertex_count(), mesh_.tets, mesh_.midsides);
   mass_blocks_ = assemble_mass(mesh_, masses, *pattern_);
   vertex_mass_ = vertex_mass_matrix(mass_blocks_, *pattern_);
   f_g_ = mass_times(gravity.replicate(mesh_.vertex_count(), 1));
@@ -254,8 +263,14 @@ Vec3 Model::angular_momentum(const State& state) const {
 double Model::min_J(const VecX& q) const {
   double least = std::numeric_limits<double>::infinity();
   const VecX X = Eigen::Map<const VecX>(mesh_.X.data(), mesh_.X.size());
-  for (const Tet& tet : mesh_.tets)
-    least = std::min(least, tet_volume(gather_corners(q, tet)) / tet_volume(gather_corners(X, tet)));
+  for (std::size_t j = 0; j < mesh_.tets.size(); ++j) {
+    const Tet& tet = mesh_.tets[j];
+    if (!mesh_.is_quadratic(j)) {
+      least = std::min(least, tet_volume(gather_corners(q, tet)) / tet_volume(gather_corners(X, tet)));
+      continue;
+    }
+    for (const Mat3& F : deformation_gradients(Tet10::rule(mesh_, j), q)) least = std::min(least, F.determinant());
+  }
   return least;
 }
 

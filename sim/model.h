@@ -74,7 +74,7 @@ public:
   Energies energies_of(const State&) const;
   Vec3 momentum(const State&) const;          // Σ (M q̇) by axis [kg m/s]
   Vec3 angular_momentum(const State&) const;  // Σ x × (M q̇), about the origin [kg m²/s]
-  double min_J(const VecX& q) const;          // least det F of all tets
+  double min_J(const VecX& q) const;          // least det F at all quadrature points
   double total_mass() const;                  // [kg]
 
 private:

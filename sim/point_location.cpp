@@ -141,10 +141,9 @@ Location PointLocation::locate(const Vec3& X) const {
 }
 
 Vec3 interpolate(const TetMesh& mesh, const Location& location, const Eigen::Ref<const Points>& x) {
-  const Tet& tet = mesh.tets[static_cast<std::size_t>(location.tet)];
   Vec3 result = Vec3::Zero();
-  for (std::size_t k = 0; k < 4; ++k)
-    result += location.phi[static_cast<Eigen::Index>(k)] * x.row(tet[k]).transpose();
+  for_each_phi(mesh, location.tet, location.phi,
+               [&](int node, double phi) { result += phi * x.row(node).transpose(); });
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "sim/element.h"
 #include "sim/shape_functions.h"
 #include "sim/tet_mesh.h"
 
@@ -42,6 +43,20 @@ private:
 
 /// Distance of a point from a tet and 0 within, [m]. `phi` are its shape functions there.
 double distance_to_tet(const TetCorners&, const Vec3& X, const Eigen::Vector4d& phi);
+
+/// Shape functions of a tet, and their nodes, where its barycentric coordinates are `lambda`: these
+/// themselves, or the ten of a quadratic one. Calls add(node, φ).
+template <class Add>
+void for_each_phi(const TetMesh& mesh, int tet, const Eigen::Vector4d& lambda, Add&& add) {
+  const auto j = static_cast<std::size_t>(tet);
+  if (!mesh.is_quadratic(j)) {
+    for (std::size_t k = 0; k < 4; ++k) add(mesh.tets[j][k], lambda[static_cast<Eigen::Index>(k)]);
+    return;
+  }
+  const std::array<int, 10> nodes = Tet10::nodes_of(mesh, j);
+  const Eigen::Matrix<double, 10, 1> phi = Tet10::phi(lambda);
+  for (std::size_t k = 0; k < 10; ++k) add(nodes[k], phi[static_cast<Eigen::Index>(k)]);
+}
 
 /// x(X) = Σ φ_i(X) x_i at a location. (lecture, "Shape functions")
 Vec3 interpolate(const TetMesh&, const Location&, const Eigen::Ref<const Points>& x);

@@ -6,7 +6,7 @@
 
 namespace lagomorph::sim {
 
-/// What an elastic term knows of each element of the mesh.
+/// What an elastic term knows of each element of the mesh, the mean over its quadrature points.
 struct ElementStates {
   std::vector<Mat3> P;            // first Piola-Kirchhoff stress ∂ψ/∂F [Pa]
   std::vector<double> psi;        // energy density [J/m^3]

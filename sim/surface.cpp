@@ -6,7 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "sim/error.h"
-#include "sim/mesh_check.h"
+#include "sim/mesh_topology.h"
 #include "sim/point_location.h"
 #include "sim/text.h"
 
@@ -25,7 +25,7 @@ const Body& body_of(const TetMesh& mesh, int body) {
 
 Surface Surface::boundary(const TetMesh& mesh, int body) {
   Surface surface;
-  surface.triangles_ = boundary_triangles(mesh, body_of(mesh, body).tets);
+  surface.triangles_ = drawn_boundary(mesh, body_of(mesh, body).tets);
   // Surface vertices are numbered in the order of the mesh's.
   std::vector<int> number(static_cast<std::size_t>(mesh.vertex_count()), -1);
   for (const Triangle& triangle : surface.triangles_) {
@@ -66,9 +66,8 @@ Surface Surface::embedded(const TetMesh& mesh, int body, const TriMesh& fine, do
     const Location& location = locations[i];
     if (location.distance > 0.0) ++surface.outside_count_;
     if (location.distance > locations[furthest].distance) furthest = i;
-    const Tet& tet = mesh.tets[static_cast<std::size_t>(location.tet)];
-    for (std::size_t k = 0; k < 4; ++k)
-      entries.emplace_back(static_cast<int>(i), tet[k], location.phi[static_cast<Eigen::Index>(k)]);
+    for_each_phi(mesh, location.tet, location.phi,
+                 [&](int node, double phi) { entries.emplace_back(static_cast<int>(i), node, phi); });
   }
   surface.outside_ = count == 0 ? 0.0 : locations[furthest].distance;
 

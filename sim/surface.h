@@ -11,7 +11,8 @@ namespace lagomorph::sim {
 /// for the boundary of the tets, φ_i of the tet that holds it for a vertex of an embedded fine mesh).
 class Surface {
 public:
-  /// Boundary triangles of one body, outward, with their own compact vertex numbering.
+  /// Boundary triangles of one body, outward, with their own compact vertex numbering; four for the face of a
+  /// quadratic tet.
   static Surface boundary(const TetMesh&, int body);
   /// A fine mesh (in world coordinates of the rest shape) carried by body's tets. Throws InputError when a
   /// fine vertex lies outside of the tets by more than `max_outside` of the body's bounding-box diagonal:

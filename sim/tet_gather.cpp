@@ -24,18 +24,17 @@ void invert(const std::vector<int>& targets, int target_count, std::vector<int>&
 
 }  // namespace
 
-TetGather::TetGather(const std::vector<Tet>& ascending_tets, std::shared_ptr<const BlockPattern> pattern)
+TetGather::TetGather(const std::vector<int>& nodes, int nodes_per_element,
+                     std::shared_ptr<const BlockPattern> pattern)
     : pattern_(std::move(pattern)) {
-  std::vector<int> vertex_targets, block_targets;
-  vertex_targets.reserve(4 * ascending_tets.size());
-  block_targets.reserve(10 * ascending_tets.size());
-  for (const Tet& tet : ascending_tets) {
-    for (int b = 0; b < 4; ++b) {
-      vertex_targets.push_back(tet[b]);
-      for (int a = 0; a <= b; ++a) block_targets.push_back(pattern_->find(tet[a], tet[b]));
-    }
+  const auto size = static_cast<std::size_t>(nodes_per_element);
+  std::vector<int> block_targets;
+  block_targets.reserve(nodes.size() * (size + 1) / 2);
+  for (std::size_t first = 0; first < nodes.size(); first += size) {
+    for (std::size_t b = first; b < first + size; ++b)
+      for (std::size_t a = first; a <= b; ++a) block_targets.push_back(pattern_->find(nodes[a], nodes[b]));
   }
-  invert(vertex_targets, pattern_->vertex_count(), vertex_starts_, vertex_sources_);
+  invert(nodes, pattern_->vertex_count(), vertex_starts_, vertex_sources_);
   invert(block_targets, pattern_->block_count(), block_starts_, block_sources_);
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
 #include "sim/block_hessian.h"
-#include "sim/tet_mesh.h"
 #include "sim/types.h"
 
 namespace lagomorph::sim {
@@ -14,14 +14,15 @@ namespace lagomorph::sim {
 /// number of threads.
 class TetGather {
 public:
-  /// The corners of each tet must ascend, so that the blocks of its upper triangle are blocks of the
-  /// pattern's upper triangle.
-  TetGather(const std::vector<Tet>& ascending_tets, std::shared_ptr<const BlockPattern> pattern);
+  /// `nodes` has the `nodes_per_element` nodes of each element, one element after the other. They must
+  /// ascend, so that the blocks of an element's upper triangle are blocks of the pattern's upper triangle.
+  TetGather(const std::vector<int>& nodes, int nodes_per_element,
+            std::shared_ptr<const BlockPattern> pattern);
 
-  static constexpr int kVectorSize = 12;  // doubles an element: 3 for each corner
-  static constexpr int kMatrixSize =
-      90;  // doubles an element: 9, column by column, for each of the 10 pairs a <= b
-  /// Place of pair (a, b), a <= b, among the ten: (0,0) (0,1) (1,1) (0,2) (1,2) (2,2) (0,3) ...
+  /// Doubles an element: 3 for each node; 9, column by column, for each pair a <= b.
+  static constexpr std::size_t vector_size(int nodes) { return 3 * static_cast<std::size_t>(nodes); }
+  static constexpr std::size_t matrix_size(int nodes) { return 9 * static_cast<std::size_t>(pair(0, nodes)); }
+  /// Place of pair (a, b), a <= b, among them: (0,0) (0,1) (1,1) (0,2) (1,2) (2,2) (0,3) ...
   static constexpr int pair(int a, int b) { return b * (b + 1) / 2 + a; }
 
   /// g += scale · Σ_j E_jᵀ f_j.

@@ -16,7 +16,14 @@ using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
 using Tet = std::array<int, 4>;
+/// Nodes in the middle of the edges kTetEdges of a quadratic tet.
+using Midsides = std::array<int, 6>;
 using Triangle = std::array<int, 3>;
+
+/// Corners of a tet's edges, in Gmsh's order of the midside nodes (VTK, Abaqus and Ensight have the last two
+/// the other way round).
+inline constexpr std::array<std::array<int, 2>, 6> kTetEdges = {
+    {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {3, 2}, {3, 1}}};
 
 /// Half-open range [begin, end) of indices.
 struct Range {

@@ -48,6 +48,8 @@ constexpr CommandRow commands[] = {
      "lagomorph export out/bunny --format vtu --fields von_mises,J", export_command},
     {"compare", "A B", "tell whether two pictures are the same, and by how much they differ",
      "lagomorph compare golden.png new.png --heat heat.png", compare_command},
+    {"refine", "MESH", "split each tet of a mesh in eight, or raise its order; into -o OUT.msh",
+     "lagomorph refine meshes/bar.msh --levels 2 --order 2 -o out/bar_fine.msh", refine_command},
     {"info", "FILE", "tell what a mesh, a scene or a run is", "lagomorph info meshes/bunny.msh --json",
      info_command},
     {"material", "MODEL", "energy, stress and stiffness of a material at one F, or its stress-stretch curves",
@@ -103,6 +105,18 @@ void apply_states(Options& o, const std::string& value) {
     wrong_input(fmt::format("--states {}: must be a whole number, 0 or more", value));
   }
   o.states_every = n;
+}
+
+void apply_levels(Options& o, const std::string& value) {
+  if (value.size() != 1 || value[0] < '0' || value[0] > '9')
+    wrong_input(fmt::format("--levels {}: must be a whole number in 0 .. 9", value));
+  o.levels = value[0] - '0';
+}
+
+void apply_order(Options& o, const std::string& value) {
+  if (value != "1" && value != "2")
+    wrong_input(fmt::format("--order {}: must be 1 (4-node tetrahedra) or 2 (10-node)", value));
+  o.order = value[0] - '0';
 }
 
 void apply_preset(Options& o, const std::string& value) {
@@ -181,6 +195,10 @@ constexpr OptionRow option_rows[] = {
     {"-o,--out", "DIR", " run simulate render check preview plot export compare material ",
      "where what is made is written",
      [](Options& o, const std::string& v) { o.out = non_empty(v, "--out"); }},
+    {"-o,--out", "FILE", " refine ", "the mesh to write, in the format of its extension",
+     [](Options& o, const std::string& v) { o.out = non_empty(v, "--out"); }},
+    {"--levels", "N", " refine ", "how often each tet is split in eight; 1, or with --order 0", apply_levels},
+    {"--order", "1|2", " refine ", "linear or quadratic tets; by default as they are", apply_order},
     {"--set", "KEY=VALUE", " run simulate render info ",
      "a scene key, as in body.0.density=500; VALUE is TOML or a string", apply_set},
     {"--set", "KEY=VALUE", " check ", "a key of golden.toml, as in limits.flip_mean=0.02", apply_set},
@@ -270,9 +288,9 @@ constexpr OptionRow option_rows[] = {
      "with fibres along X,Y,Z of this stiffness; a fifth number: exponent", apply_fibre},
     {"--F", "NUMBERS", " material ", "one deformation gradient, f00,f01,...,f22; without it: curves",
      [](Options& o, const std::string& v) { o.F = v; }},
-    {"--quiet", nullptr, " run simulate render check approve preview plot export compare info material ",
+    {"--quiet", nullptr, " run simulate render check approve preview plot export compare info material refine ",
      "no progress, only errors", [](Options& o, const std::string&) { o.quiet = true; }},
-    {"--json", nullptr, " run simulate render check approve preview plot export compare info material ",
+    {"--json", nullptr, " run simulate render check approve preview plot export compare info material refine ",
      "print the result as JSON on stdout", [](Options& o, const std::string&) { o.json = true; }},
 };
 

@@ -31,6 +31,8 @@ struct Options {
   bool quiet = false;                           // --quiet
   bool json = false;                            // --json
   std::optional<std::filesystem::path> mend;    // info --mend OUT: drop stray vertices
+  std::optional<int> levels;                    // refine --levels
+  std::optional<int> order;                     // refine --order
   bool keys = false;                            // info --keys: the table of scene keys
   std::optional<double> pixels_per_degree;      // compare, check --ppd
   std::optional<std::filesystem::path> heat;    // compare --heat FILE.png

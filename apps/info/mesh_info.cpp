@@ -31,6 +31,7 @@ Report tet_mesh_report(const fs::path& file, const sim::TetMesh& mesh, const sim
   Report report(file.string() + ": tetrahedral mesh", "tet mesh", file.string());
   report.add("vertices", count_text(mesh.vertex_count()), "vertices", mesh.vertex_count());
   report.add("tets", count_text(mesh.tet_count()), "tets", mesh.tet_count());
+  if (!mesh.midsides.empty()) report.add("element", "quadratic, of 10 nodes", "element", "quadratic");
   report.add(
       "boundary",
       fmt::format("{} triangles, {}", count_text(q.boundary_triangles), q.closed ? "closed" : "not closed"),

@@ -12,6 +12,7 @@
 #include "sim/mesh_io.h"
 #include "sim/pins.h"
 #include "sim/placement.h"
+#include "sim/refine.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -70,9 +71,12 @@ std::vector<sim::BodyInput> read_bodies(const SceneDesc& scene, Progress& progre
     const std::filesystem::path file = scene.directory / body.mesh;
     sim::Remarks remarks;
     sim::TetMesh mesh = sim::read_tet_mesh(file, remarks);
+    if (body.element == "linear") mesh = sim::with_linear_tets(mesh);
+    if (body.element == "quadratic") mesh = sim::with_quadratic_tets(mesh);
     sim::Points placed = mesh.X;
     sim::place(placed, body.physics);
-    progress.note(fmt::format("{}: {} vertices, {} tets, {} as placed", file.string(), mesh.vertex_count(),
+    progress.note(fmt::format("{}: {} {}, {} tets, {} as placed", file.string(), mesh.vertex_count(),
+                              mesh.midsides.empty() ? "vertices" : "corners and midside nodes",
                               mesh.tet_count(), size_of(placed)));
     note_all(progress, file.string(), remarks);
     sim::BodyInput input{std::move(mesh), body.physics};

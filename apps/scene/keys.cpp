@@ -23,6 +23,7 @@ constexpr const char* pascal = "Pa";
 std::vector<std::string> mass_choices() { return {"consistent", "lumped"}; }
 std::vector<std::string> axis_choices() { return {"x", "y", "z"}; }
 std::vector<std::string> interpolation_choices() { return {"smooth", "linear"}; }
+std::vector<std::string> element_choices() { return {"mesh", "linear", "quadratic"}; }
 std::vector<std::string> hessian_choices() { return {"auto", "projected"}; }
 std::vector<std::string> moduli_choices() { return {"lecture", "matched"}; }
 
@@ -496,6 +497,13 @@ void visit_body(BodyDesc& b, KeyVisitor& v) {
          .required = true,
          .file = true},
         &b.mesh);
+  v.key({.name = "element",
+         .part = simulation,
+         .meaning =
+             "mesh: tets of 4 or 10 nodes as the file has them; linear, quadratic: made so as it is read. "
+             "Quadratic ones do not lock near poisson 0.5",
+         .choices = element_choices},
+        &b.element);
   v.key({.name = "density",
          .unit = "kg/m^3",
          .bounds = above(0),

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <span>
 #include <string>
+#include <vector>
 
 #include "sim/io/file.h"
 #include "sim/mesh_io.h"
@@ -14,6 +16,11 @@ namespace lagomorph::sim::io {
 /// What read_tet_mesh and read_tri_mesh do with a file once its bytes are there.
 TetMesh parse_tet_mesh(const File&, Remarks&, const MeshChecks& = {});
 TriMesh parse_tri_mesh(const File&, Remarks&);
+
+/// Adds a tet of 4 or 10 nodes, midside nodes in the order of kTetEdges.
+void add_tet(TetMesh&, std::span<const int> nodes, int tag);
+/// The 4 or 10 nodes of a tet.
+std::vector<int> nodes_of(const TetMesh&, std::size_t tet);
 
 TetMesh read_medit(const File&, Remarks&);
 TetMesh read_gmsh(const File&, Remarks&);

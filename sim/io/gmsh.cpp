@@ -45,7 +45,7 @@ constexpr std::array kElementTypes = {
     ElementType{5, 8, "8-node hexahedron"},
     ElementType{6, 6, "6-node prism"},
     ElementType{7, 5, "5-node pyramid"},
-    ElementType{11, 10, "10-node tetrahedron"},
+    ElementType{11, 10, nullptr},
     ElementType{12, 27, "27-node hexahedron"},
     ElementType{13, 18, "18-node prism"},
     ElementType{14, 14, "14-node pyramid"},
@@ -115,11 +115,11 @@ int gmsh_node_count(std::int64_t type, Scanner& scanner) {
                                    [&](const ElementType& e) { return e.type == type; });
   if (found == kElementTypes.end()) {
     scanner.fail("element type " + std::to_string(type) +
-                 " is unknown; 4-node tetrahedra (type 4) are needed");
+                 " is unknown; tetrahedra of 4 nodes (type 4) or 10 (type 11) are needed");
   }
   if (found->volume != nullptr) {
     scanner.fail("element type " + std::to_string(type) + ", a " + found->volume +
-                 "; only 4-node tetrahedra can be used for volumes");
+                 "; only 4-node and 10-node tetrahedra can be used for volumes");
   }
   return found->nodes;
 }

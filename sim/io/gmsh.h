@@ -51,10 +51,14 @@ private:
   std::unordered_map<std::int64_t, int> sparse_;
 };
 
-/// How many nodes an element of this type has. Fails when it is a volume other than the 4-node tetrahedron,
-/// or unknown.
+/// How many nodes an element of this type has. Fails when it is a volume other than a tetrahedron of 4 or 10
+/// nodes, or unknown.
 int gmsh_node_count(std::int64_t type, Scanner&);
-constexpr int kGmshTetrahedron = 4;
+/// Their midside nodes are in the order of kTetEdges.
+constexpr int kGmshTetrahedron = 4, kGmshQuadraticTetrahedron = 11;
+inline bool is_gmsh_tetrahedron(std::int64_t type) {
+  return type == kGmshTetrahedron || type == kGmshQuadraticTetrahedron;
+}
 
 /// Calls `read(name)` for each section ("$Nodes") after its first line; when it returns false the section is
 /// skipped.

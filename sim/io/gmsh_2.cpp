@@ -73,20 +73,20 @@ private:
       const std::int64_t tag = numbers_.integer("an element's tag");
       if (i == 0) physical = scanner_.check_tag(tag);
     }
-    if (type != kGmshTetrahedron) {
+    if (!is_gmsh_tetrahedron(type)) {
       for (int i = 0; i < nodes; ++i) numbers_.integer("an element's node");
       return;
     }
-    Tet tet;
-    for (int& corner : tet) corner = nodes_.vertex(numbers_.integer("a tetrahedron's node"), scanner_);
-    mesh_.tets.push_back(tet);
-    mesh_.tags.push_back(physical);
+    tet_.resize(static_cast<std::size_t>(nodes));
+    for (int& node : tet_) node = nodes_.vertex(numbers_.integer("a tetrahedron's node"), scanner_);
+    add_tet(mesh_, tet_, physical);
   }
 
   GmshNumbers& numbers_;
   Scanner& scanner_;
   TetMesh mesh_;
   GmshNodes nodes_;
+  std::vector<int> tet_;  // nodes of the one that is read
 };
 
 }  // namespace
@@ -122,10 +122,11 @@ std::string write_gmsh(const TetMesh& mesh) {
   std::size_t body = 0;
   for (std::size_t j = 0; j < mesh.tets.size(); ++j) {
     while (body + 1 < mesh.bodies.size() && static_cast<int>(j) >= mesh.bodies[body].tets.end) ++body;
-    const Tet& tet = mesh.tets[j];
     // Number, type, two tags: the physical one, and the elementary entity, which is the body.
-    out.line(j + 1, kGmshTetrahedron, 2, mesh.tags[j], body + 1, tet[0] + 1, tet[1] + 1, tet[2] + 1,
-             tet[3] + 1);
+    out << j + 1 << ' ' << (mesh.is_quadratic(j) ? kGmshQuadraticTetrahedron : kGmshTetrahedron) << " 2 "
+        << mesh.tags[j] << ' ' << body + 1;
+    for (const int node : nodes_of(mesh, j)) out << ' ' << node + 1;
+    out << '\n';
   }
   out << "$EndElements\n";
   return out.take();

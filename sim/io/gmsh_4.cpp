@@ -76,18 +76,17 @@ public:
                       std::to_string(count - done) + " are left");
       }
       done += size;
-      if (type != kGmshTetrahedron) {
+      if (!is_gmsh_tetrahedron(type)) {
         for (std::size_t i = 0; i < size * (1 + nodes); ++i) numbers_.size("an element's tag or node");
         continue;
       }
       const auto physical = dimension == 3 ? physical_of_volume_.find(entity) : physical_of_volume_.end();
-      mesh_.tags.resize(mesh_.tags.size() + size,
-                        physical == physical_of_volume_.end() ? 0 : physical->second);
+      const int tag = physical == physical_of_volume_.end() ? 0 : physical->second;
+      std::vector<int> tet(nodes);
       for (std::size_t i = 0; i < size; ++i) {
         numbers_.size("an element's tag");
-        Tet tet;
-        for (int& corner : tet) corner = nodes_.vertex(numbers_.size("a tetrahedron's node"), scanner_);
-        mesh_.tets.push_back(tet);
+        for (int& node : tet) node = nodes_.vertex(numbers_.size("a tetrahedron's node"), scanner_);
+        add_tet(mesh_, tet, tag);
       }
     }
     if (done != count) {

@@ -1,5 +1,6 @@
 // Medit .mesh, ASCII. (Frey, "MEDIT: an interactive mesh visualization software", INRIA RT-0253, 2001;
-// libMeshb's keywords)
+// libMeshb's keywords. Its TetrahedraP2 are refused: the format does not say the order of their midside
+// nodes)
 #include <algorithm>
 #include <array>
 #include <optional>

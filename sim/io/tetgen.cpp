@@ -1,4 +1,5 @@
 // TetGen's .node and .ele. (Si, "TetGen, a quality tetrahedral mesh generator", manual 1.5, section 5.2)
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -10,6 +11,10 @@
 
 namespace lagomorph::sim::io {
 namespace {
+
+/// Where `tetgen -o2`'s six midside nodes, on the edges (2,3) (0,3) (0,1) (1,2) (1,3) (0,2), stand among our
+/// ten nodes. (order of tetgenmesh::highorder; not in the manual)
+constexpr std::array<std::size_t, 6> kMidsides = {8, 7, 4, 5, 9, 6};
 
 /// The file beside this one with another extension.
 File read_partner(const File& file, const char* extension) {
@@ -68,27 +73,31 @@ void read_tets(Scanner& scanner, std::int64_t first, TetMesh& mesh, Remarks& rem
   if (scanner.at_end()) scanner.fail("no header line: <tetrahedra> 4 <attributes>");
   const std::size_t count = scanner.count("tetrahedra", 10);
   const std::int64_t nodes = header_number(scanner, "the number of nodes of a tetrahedron", 4);
-  if (nodes != 4)
-    scanner.fail(std::to_string(nodes) + "-node tetrahedra; only 4-node tetrahedra can be used");
+  if (nodes != 4 && nodes != 10) {
+    scanner.fail(std::to_string(nodes) +
+                 "-node tetrahedra; only 4-node and 10-node (tetgen -o2) tetrahedra can be used");
+  }
   const std::size_t attributes = header_width(scanner, "the number of attributes");
   scanner.expect_line_end("the header");
-  mesh.tets.resize(count);
-  mesh.tags.assign(count, 0);
+  std::vector<int> tet(static_cast<std::size_t>(nodes));
   std::size_t fractions = 0;
   for (std::size_t j = 0; j < count; ++j) {
     scanner.integer("a tetrahedron's number");
-    for (int& corner : mesh.tets[j]) {
-      corner = scanner.index("a vertex of a tetrahedron", first, static_cast<std::size_t>(mesh.X.rows()));
+    for (std::size_t k = 0; k < tet.size(); ++k) {
+      tet[k < 4 ? k : kMidsides[k - 4]] =
+          scanner.index("a vertex of a tetrahedron", first, static_cast<std::size_t>(mesh.X.rows()));
     }
+    int tag = 0;
     for (std::size_t k = 0; k < attributes; ++k) {
       const double attribute = scanner.number("a region attribute");
       if (k > 0) continue;
       if (attribute != std::floor(attribute) || std::abs(attribute) > std::numeric_limits<int>::max()) {
         ++fractions;
       } else {
-        mesh.tags[j] = static_cast<int>(attribute);
+        tag = static_cast<int>(attribute);
       }
     }
+    add_tet(mesh, tet, tag);
     scanner.expect_line_end("a tetrahedron");
   }
   if (!scanner.at_end()) {
@@ -129,10 +138,18 @@ std::string write_tetgen_node(const TetMesh& mesh) {
 
 std::string write_tetgen_ele(const TetMesh& mesh) {
   TextWriter out;
-  out.line(mesh.tets.size(), 4, 1);
+  const bool quadratic = !mesh.midsides.empty();
+  for (std::size_t j = 0; quadratic && j < mesh.tets.size(); ++j) {
+    if (!mesh.is_quadratic(j))
+      throw InputError("tet " + std::to_string(j) +
+                       " has 4 nodes, others 10; .ele files have one kind of tets");
+  }
+  out.line(mesh.tets.size(), quadratic ? 10 : 4, 1);
   for (std::size_t j = 0; j < mesh.tets.size(); ++j) {
-    const Tet& tet = mesh.tets[j];
-    out.line(j, tet[0], tet[1], tet[2], tet[3], mesh.tags[j]);
+    const std::vector<int> nodes = nodes_of(mesh, j);
+    out << j;
+    for (std::size_t k = 0; k < nodes.size(); ++k) out << ' ' << nodes[k < 4 ? k : kMidsides[k - 4]];
+    out << ' ' << mesh.tags[j] << '\n';
   }
   return out.take();
 }

@@ -315,10 +315,17 @@ std::string write_vtk(const TetMesh& mesh) {
   out.line(mesh.X.rows(), std::string_view("double"));
   for (Eigen::Index i = 0; i < mesh.X.rows(); ++i) out.line(mesh.X(i, 0), mesh.X(i, 1), mesh.X(i, 2));
   out << "CELLS ";
-  out.line(mesh.tets.size(), 5 * mesh.tets.size());
-  for (const Tet& tet : mesh.tets) out.line(4, tet[0], tet[1], tet[2], tet[3]);
+  std::size_t size = 0;
+  for (std::size_t j = 0; j < mesh.tets.size(); ++j) size += 1 + vtk_points(mesh, j).size();
+  out.line(mesh.tets.size(), size);
+  for (std::size_t j = 0; j < mesh.tets.size(); ++j) {
+    const std::vector<int> points = vtk_points(mesh, j);
+    out << points.size();
+    for (const int point : points) out << ' ' << point;
+    out << '\n';
+  }
   out << "CELL_TYPES " << mesh.tets.size() << '\n';
-  for (std::size_t j = 0; j < mesh.tets.size(); ++j) out.line(kVtkTetra);
+  for (std::size_t j = 0; j < mesh.tets.size(); ++j) out.line(vtk_type(mesh, j));
   out << "CELL_DATA " << mesh.tets.size() << "\nSCALARS tag int 1\nLOOKUP_TABLE default\n";
   for (const int tag : mesh.tags) out.line(tag);
   return out.take();

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
+
+#include "sim/io/formats.h"
 
 namespace lagomorph::sim::io {
 namespace {
@@ -22,7 +25,6 @@ constexpr std::array kVolumes = {
     Volume{14, "5-node pyramid"},
     Volume{15, "pentagonal prism"},
     Volume{16, "hexagonal prism"},
-    Volume{24, "10-node tetrahedron"},
     Volume{25, "20-node hexahedron"},
     Volume{26, "15-node wedge"},
     Volume{27, "13-node pyramid"},
@@ -41,6 +43,12 @@ std::string describe(std::int64_t type) {
 }
 
 }  // namespace
+
+std::vector<int> vtk_points(const TetMesh& mesh, std::size_t tet) {
+  std::vector<int> points = nodes_of(mesh, tet);
+  if (points.size() == 10) std::swap(points[8], points[9]);
+  return points;
+}
 
 bool is_tag_array(std::string_view name) {
   return name == "tag" || name == "gmsh:physical" || name == "medit:ref" || name == "gmsh%3Aphysical" ||
@@ -67,11 +75,14 @@ TetMesh tets_of(const VtkCells& cells, const std::function<void(const std::strin
       fail(cell() + " ends at " + std::to_string(end) + " of the connectivity; it must be in " +
            std::to_string(begin) + ".." + std::to_string(cells.connectivity.size()));
     }
-    if (type == kVtkTetra) {
-      if (end - begin != 4)
-        fail(cell() + ", a tetrahedron, has " + std::to_string(end - begin) + " points; it must have 4");
-      Tet tet;
-      for (std::size_t k = 0; k < 4; ++k) {
+    if (type == kVtkTetra || type == kVtkQuadraticTetra) {
+      const std::int64_t size = type == kVtkTetra ? 4 : 10;
+      if (end - begin != size) {
+        fail(cell() + ", a tetrahedron, has " + std::to_string(end - begin) + " points; it must have " +
+             std::to_string(size));
+      }
+      std::vector<int> tet(static_cast<std::size_t>(size));
+      for (std::size_t k = 0; k < tet.size(); ++k) {
         const std::int64_t point = cells.connectivity[static_cast<std::size_t>(begin) + k];
         if (point < 0 || point >= points) {
           fail(cell() + " has point " + std::to_string(point) + "; it must be in 0.." +
@@ -83,11 +94,11 @@ TetMesh tets_of(const VtkCells& cells, const std::function<void(const std::strin
       if (tag < std::numeric_limits<int>::min() || tag > std::numeric_limits<int>::max()) {
         fail(cell() + " has the tag " + std::to_string(tag) + ", which does not fit 32 bits");
       }
-      mesh.tets.push_back(tet);
-      mesh.tags.push_back(static_cast<int>(tag));
+      if (size == 10) std::swap(tet[8], tet[9]);
+      add_tet(mesh, tet, static_cast<int>(tag));
     } else if (std::find(kFlatCells.begin(), kFlatCells.end(), type) == kFlatCells.end()) {
       fail(cell() + " is of " + describe(type) +
-           "; only 4-node tetrahedra (type 10) can be used for volumes");
+           "; only tetrahedra of 4 nodes (type 10) or 10 (type 24) can be used for volumes");
     }
     begin = end;
   }

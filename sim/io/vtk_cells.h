@@ -21,11 +21,17 @@ struct VtkCells {
 };
 
 /// The tetrahedra of a grid; cells of lower dimension are left out. `fail` reports a message at the file's
-/// place and throws: for a volume that is no 4-node tetrahedron, and for points, ends or counts that do not
-/// fit.
+/// place and throws: for a volume that is no tetrahedron of 4 or 10 nodes, and for points, ends or counts
+/// that do not fit.
 TetMesh tets_of(const VtkCells&, const std::function<void(const std::string&)>& fail);
 
-constexpr std::int64_t kVtkTetra = 10;
+constexpr std::int64_t kVtkTetra = 10, kVtkQuadraticTetra = 24;
+
+/// The 4 or 10 points of a tet as VTK orders them: it has the last two midside nodes the other way round.
+std::vector<int> vtk_points(const TetMesh&, std::size_t tet);
+inline std::int64_t vtk_type(const TetMesh& mesh, std::size_t tet) {
+  return mesh.is_quadratic(tet) ? kVtkQuadraticTetra : kVtkTetra;
+}
 
 /// Whether a cell array of this name holds the tags: "tag" is ours, the others those of meshio and Gmsh.
 bool is_tag_array(std::string_view name);

@@ -82,11 +82,11 @@ TetMesh read_vtu(const File& file, Remarks&) {
     const auto first = mesh.X.rows();
     mesh.X.conservativeResize(first + part.X.rows(), 3);
     mesh.X.bottomRows(part.X.rows()) = part.X;
-    for (Tet& tet : part.tets) {
-      for (int& corner : tet) corner += static_cast<int>(first);
+    for (std::size_t j = 0; j < part.tets.size(); ++j) {
+      std::vector<int> nodes = nodes_of(part, j);
+      for (int& node : nodes) node += static_cast<int>(first);
+      add_tet(mesh, nodes, part.tags[j]);
     }
-    mesh.tets.insert(mesh.tets.end(), part.tets.begin(), part.tets.end());
-    mesh.tags.insert(mesh.tags.end(), part.tags.begin(), part.tags.end());
   }
   return mesh;
 }
@@ -104,14 +104,16 @@ std::string write_vtu(const TetMesh& mesh, const std::vector<Field>& fields) {
   out << "</Points>\n<Cells>\n";
   std::vector<std::int32_t> connectivity;
   std::vector<std::int64_t> ends;
-  for (const Tet& tet : mesh.tets) {
-    connectivity.insert(connectivity.end(), tet.begin(), tet.end());
+  std::vector<std::uint8_t> types;
+  for (std::size_t j = 0; j < mesh.tets.size(); ++j) {
+    const std::vector<int> points = vtk_points(mesh, j);
+    connectivity.insert(connectivity.end(), points.begin(), points.end());
     ends.push_back(static_cast<std::int64_t>(connectivity.size()));
+    types.push_back(static_cast<std::uint8_t>(vtk_type(mesh, j)));
   }
   write_array(out, "type=\"Int32\" Name=\"connectivity\"", connectivity);
   write_array(out, "type=\"Int64\" Name=\"offsets\"", ends);
-  write_array(out, "type=\"UInt8\" Name=\"types\"",
-              std::vector<std::uint8_t>(mesh.tets.size(), std::uint8_t{kVtkTetra}));
+  write_array(out, "type=\"UInt8\" Name=\"types\"", types);
   out << "</Cells>\n<CellData Scalars=\"tag\">\n";
   write_array(out, "type=\"Int32\" Name=\"tag\"",
               std::vector<std::int32_t>(mesh.tags.begin(), mesh.tags.end()));

@@ -25,8 +25,8 @@ struct Row {
   std::string name;
   void (*check)(const MaterialSettings&, const std::string& where);
   std::unique_ptr<const MaterialPoint> (*make_point)(const MaterialSettings&, const std::string& where);
-  std::unique_ptr<Energy> (*make)(const TetMesh&, const std::vector<ElasticBody>&,
-                                  const std::shared_ptr<const BlockPattern>&);
+  void (*append)(const TetMesh&, const std::vector<ElasticBody>&, const std::shared_ptr<const BlockPattern>&,
+                 std::vector<std::unique_ptr<Energy>>& terms);
 };
 
 template <EnergyDensity Material>
@@ -61,24 +61,38 @@ std::unique_ptr<const MaterialPoint> make_point(const MaterialSettings& settings
   return std::make_unique<PointOf<Material>>(settings, where);
 }
 
+/// What is of one material model and one kind of element.
 template <EnergyDensity Material>
-std::unique_ptr<Energy> make(const TetMesh& mesh, const std::vector<ElasticBody>& bodies,
-                             const std::shared_ptr<const BlockPattern>& pattern) {
+struct Part {
   std::vector<int> elements;
   std::vector<Material> materials;
+};
+
+template <EnergyDensity Material>
+void append(const TetMesh& mesh, const std::vector<ElasticBody>& bodies,
+            const std::shared_ptr<const BlockPattern>& pattern, std::vector<std::unique_ptr<Energy>>& terms) {
+  Part<Material> linear, quadratic;
   for (const ElasticBody& body : bodies) {
     const Material material = Material::from_settings(body.material, body.where);
     for (int j = body.tets.begin; j < body.tets.end; ++j) {
-      elements.push_back(j);
-      materials.push_back(material);
+      Part<Material>& part = mesh.is_quadratic(static_cast<std::size_t>(j)) ? quadratic : linear;
+      part.elements.push_back(j);
+      part.materials.push_back(material);
     }
   }
-  return std::make_unique<Elasticity<Material>>(mesh, elements, std::move(materials), pattern);
+  if (!linear.elements.empty()) {
+    terms.push_back(std::make_unique<Elasticity<Material, Tet4>>(mesh, linear.elements,
+                                                                 std::move(linear.materials), pattern));
+  }
+  if (!quadratic.elements.empty()) {
+    terms.push_back(std::make_unique<Elasticity<Material, Tet10>>(mesh, quadratic.elements,
+                                                                  std::move(quadratic.materials), pattern));
+  }
 }
 
 template <EnergyDensity Material>
 Row row() {
-  return {Material::kName, check<Material>, make_point<Material>, make<Material>};
+  return {Material::kName, check<Material>, make_point<Material>, append<Material>};
 }
 
 /// The explicit table: a new material is one row.
@@ -129,12 +143,12 @@ std::vector<std::unique_ptr<Energy>> make_elasticity(const TetMesh& mesh,
     std::vector<ElasticBody> of_this_model;
     for (const ElasticBody& body : bodies)
       if (body.material.model == r.name) of_this_model.push_back(body);
-    if (!of_this_model.empty()) terms.push_back(r.make(mesh, of_this_model, pattern));
+    if (!of_this_model.empty()) r.append(mesh, of_this_model, pattern, terms);
   }
   std::vector<ElasticBody> fibrous;
   for (const ElasticBody& body : bodies)
     if (body.material.fibre) fibrous.push_back(body);
-  if (!fibrous.empty()) terms.push_back(make<Fibre>(mesh, fibrous, pattern));
+  if (!fibrous.empty()) append<Fibre>(mesh, fibrous, pattern, terms);
   return terms;
 }
 

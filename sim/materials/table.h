@@ -38,8 +38,8 @@ struct ElasticBody {
   std::string where;  // prefix of error messages
 };
 
-/// Elasticity of all bodies: one term for each model in use, in the order of material_names(), and one for
-/// all fibres. Throws InputError.
+/// Elasticity of all bodies: one term for each model and kind of element in use, in the order of
+/// material_names(), linear tets first, and then those of all fibres. Throws InputError.
 std::vector<std::unique_ptr<Energy>> make_elasticity(const TetMesh&, const std::vector<ElasticBody>&,
                                                      const std::shared_ptr<const BlockPattern>&);
 

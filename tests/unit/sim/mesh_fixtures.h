@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -95,20 +96,20 @@ inline TetMesh one_tet() {
   return mesh;
 }
 
-/// n×n×n cubes of the unit cube, each of six tets along its diagonal (Kuhn's).
-inline TetMesh cube_mesh(int n) {
+/// nx×ny×nz cubes, n of them to a metre, each of six tets along its diagonal (Kuhn's).
+inline TetMesh box_mesh(int nx, int ny, int nz, int n) {
   TetMesh mesh;
-  const auto vertex = [n](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
-  mesh.X.resize((n + 1) * (n + 1) * (n + 1), 3);
-  for (int k = 0; k <= n; ++k) {
-    for (int j = 0; j <= n; ++j) {
-      for (int i = 0; i <= n; ++i) mesh.X.row(vertex(i, j, k)) = Vec3(i, j, k).transpose() / n;
+  const auto vertex = [=](int i, int j, int k) { return (k * (ny + 1) + j) * (nx + 1) + i; };
+  mesh.X.resize((nx + 1) * (ny + 1) * (nz + 1), 3);
+  for (int k = 0; k <= nz; ++k) {
+    for (int j = 0; j <= ny; ++j) {
+      for (int i = 0; i <= nx; ++i) mesh.X.row(vertex(i, j, k)) = Vec3(i, j, k).transpose() / n;
     }
   }
   const int paths[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
-  for (int k = 0; k < n; ++k) {
-    for (int j = 0; j < n; ++j) {
-      for (int i = 0; i < n; ++i) {
+  for (int k = 0; k < nz; ++k) {
+    for (int j = 0; j < ny; ++j) {
+      for (int i = 0; i < nx; ++i) {
         for (int p = 0; p < 6; ++p) {
           Eigen::Vector3i at(i, j, k);
           Tet tet;
@@ -125,6 +126,21 @@ inline TetMesh cube_mesh(int n) {
     }
   }
   mesh.bodies = {{"cube", {0, mesh.vertex_count()}, {0, mesh.tet_count()}}};
+  return mesh;
+}
+
+/// n×n×n cubes of the unit cube.
+inline TetMesh cube_mesh(int n) { return box_mesh(n, n, n, n); }
+
+/// The same with its inner vertices moved, so that no two tets have the same shape.
+inline TetMesh irregular_cube_mesh(int n) {
+  TetMesh mesh = cube_mesh(n);
+  for (Eigen::Index v = 0; v < mesh.X.rows(); ++v) {
+    const Vec3 X = mesh.X.row(v);
+    if (X.minCoeff() == 0.0 || X.maxCoeff() == 1.0) continue;
+    for (int axis = 0; axis < 3; ++axis)
+      mesh.X(v, axis) += 0.2 / n * std::sin(7.0 * static_cast<double>(v) + 2.0 * axis);
+  }
   return mesh;
 }
 

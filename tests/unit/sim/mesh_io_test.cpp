@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/mesh_check.h"
+#include "sim/refine.h"
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
@@ -151,6 +152,26 @@ TEST(MeshIo, EveryTetFormatReadsBackWhatItWrote) {
     EXPECT_EQ(read.bodies[0].tets.end, mesh.tet_count());
     EXPECT_EQ(write_tet_mesh(read, extension), write_tet_mesh(mesh, extension));
   }
+}
+
+TEST(MeshIo, QuadraticTetsReadBackAsTheyWereWritten) {
+  const TetMesh mesh = with_quadratic_tets(untidy_mesh());
+  const TempFolder folder;
+  const std::vector<std::string> extensions = {".msh", ".node", ".ele", ".vtk", ".vtu"};
+  for (const std::string& extension : extensions)
+    folder.write("body" + extension, write_tet_mesh(mesh, extension));
+  for (const std::string& extension : extensions) {
+    SCOPED_TRACE(extension);
+    Remarks remarks;
+    const TetMesh read = read_tet_mesh(folder.path() / ("body" + extension), remarks);
+    expect_same(read, mesh);
+    EXPECT_EQ(read.midsides, mesh.midsides);
+    EXPECT_EQ(remarks, Remarks{});
+  }
+  EXPECT_EQ(error_of([&] { write_tet_mesh(mesh, ".mesh"); }),
+            "tetrahedral mesh to write as .mesh: it has 10-node tetrahedra, which are written as .msh, "
+            ".node, .ele, "
+            ".vtk or .vtu");
 }
 
 TEST(MeshIo, EveryTriFormatReadsBackWhatItWrote) {

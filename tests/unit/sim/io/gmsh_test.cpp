@@ -169,12 +169,16 @@ TEST(Gmsh, CountsOfBlocksMustAgree) {
 
 TEST(Gmsh, OtherVolumesAreNamed) {
   EXPECT_EQ(
-      tet_error("a.msh", replaced(kTet22, "2 4 2 9 1 1 2 3 4", "2 11 2 9 1 1 2 3 4 1 2 3 4 1 2")),
-      "a.msh:14: element type 11, a 10-node tetrahedron; only 4-node tetrahedra can be used for volumes");
-  EXPECT_EQ(tet_error("a.msh", replaced(kTet41, "3 1 4 1\n", "3 1 5 1\n")),
-            "a.msh:22: element type 5, a 8-node hexahedron; only 4-node tetrahedra can be used for volumes");
-  EXPECT_EQ(tet_error("a.msh", replaced(kTet22, "2 4 2 9", "2 1234 2 9")),
-            "a.msh:14: element type 1234 is unknown; 4-node tetrahedra (type 4) are needed");
+      tet_error("a.msh", replaced(kTet22, "2 4 2 9 1 1 2 3 4", "2 29 2 9 1 1 2 3 4")),
+      "a.msh:14: element type 29, a 20-node tetrahedron; only 4-node and 10-node tetrahedra can be used for "
+      "volumes");
+  EXPECT_EQ(
+      tet_error("a.msh", replaced(kTet41, "3 1 4 1\n", "3 1 5 1\n")),
+      "a.msh:22: element type 5, a 8-node hexahedron; only 4-node and 10-node tetrahedra can be used for "
+      "volumes");
+  EXPECT_EQ(
+      tet_error("a.msh", replaced(kTet22, "2 4 2 9", "2 1234 2 9")),
+      "a.msh:14: element type 1234 is unknown; tetrahedra of 4 nodes (type 4) or 10 (type 11) are needed");
 }
 
 TEST(Gmsh, NodesOfOnlySurfaceElementsAreStray) {

@@ -72,8 +72,8 @@ TEST(TetGen, WhatIsWrongIsToldWithItsFileAndLine) {
   EXPECT_EQ(error("", kEle), "a.node:1: no header line: <points> 3 <attributes> <boundary markers>");
   EXPECT_EQ(error(kNode, replaced(kEle, "2 3 7", "2 4 7")),
             "a.ele:2: a vertex of a tetrahedron is 4; it must be in 0..3");
-  EXPECT_EQ(error(kNode, "1 10 0\n0 0 1 2 3 0 1 2 3 0 1\n"),
-            "a.ele:1: 10-node tetrahedra; only 4-node tetrahedra can be used");
+  EXPECT_EQ(error(kNode, "1 7 0\n0 0 1 2 3 0 1 2\n"),
+            "a.ele:1: 7-node tetrahedra; only 4-node and 10-node (tetgen -o2) tetrahedra can be used");
   EXPECT_EQ(error(kNode, replaced(kEle, "1 4 1", "1 4 1 x")), "a.ele:1: unexpected 'x' after the header");
   EXPECT_EQ(error(kNode, kEle + "1 0 1 2 3 4"), "a.ele:3: unexpected '1' after the last of 1 tetrahedra");
 }

@@ -71,11 +71,10 @@ TEST(Vtk, WhatIsWrongIsToldWithItsLine) {
 
 TEST(Vtk, OtherVolumesAreNamed) {
   EXPECT_EQ(tet_error("a.vtk", replaced(kTet, "\n5 10\n", "\n5 24\n")),
-            "a.vtk:12: cell 1 (numbered from 0) is of type 24 (10-node tetrahedron); only 4-node tetrahedra "
-            "(type 10) can be used for volumes");
+            "a.vtk:12: cell 1 (numbered from 0), a tetrahedron, has 4 points; it must have 10");
   EXPECT_EQ(tet_error("a.vtk", replaced(kTet, "\n5 10\n", "\n99 10\n")),
-            "a.vtk:12: cell 0 (numbered from 0) is of type 99; only 4-node tetrahedra (type 10) can be used "
-            "for volumes");
+            "a.vtk:12: cell 0 (numbered from 0) is of type 99; only tetrahedra of 4 nodes (type 10) or 10 "
+            "(type 24) can be used for volumes");
 }
 
 TEST(Vtk, ErrorsInBinaryFilesTellTheByte) {

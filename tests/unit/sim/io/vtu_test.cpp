@@ -67,9 +67,8 @@ TEST(Vtu, WhatIsWrongIsToldWithItsLine) {
 
 TEST(Vtu, OtherVolumesAndCompressorsAreNamed) {
   EXPECT_EQ(tet_error("a.vtu", replaced(kTet, ">5 10<", ">5 12<")),
-            "a.vtu:5: cell 1 (numbered from 0) is of type 12 (8-node hexahedron); only 4-node tetrahedra "
-            "(type 10) can be used for "
-            "volumes");
+            "a.vtu:5: cell 1 (numbered from 0) is of type 12 (8-node hexahedron); only tetrahedra of 4 "
+            "nodes (type 10) or 10 (type 24) can be used for volumes");
   Remarks remarks;
   EXPECT_EQ(
       error_of([&] { read_tet_mesh(data_path("meshes/two_boxes_lz4.vtu"), remarks); }, data_path("meshes")),
