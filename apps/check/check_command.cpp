@@ -6,6 +6,7 @@
 #include "apps/check/check.h"
 #include "apps/check/ci_output.h"
 #include "apps/check/junit.h"
+#include "apps/check/report_html.h"
 #include "apps/check/report_json.h"
 #include "apps/check/result_text.h"
 #include "apps/cli/print.h"
@@ -20,11 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_reports(const CheckResult& result, const std::string& json) {
+void write_reports(const CheckResult& result, const std::string& json, bool assets) {
   make_folder(result.out);
   remove_leftovers(result.out);
   write_file(result.out / "report.json", json);
   write_file(result.out / "junit.xml", junit_xml(result, fs::current_path()));
+  write_report_html(result, assets);
 }
 
 }  // namespace
@@ -48,7 +50,7 @@ ExitStatus check_command(const Options& options) {
                                         .pixels_per_degree = options.pixels_per_degree},
                                        progress);
   const std::string json = report_json(result);
-  write_reports(result, json);
+  write_reports(result, json, options.assets);
   if (options.json) {
     print(json);
   } else if (!options.quiet) {

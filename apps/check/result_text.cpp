@@ -16,20 +16,6 @@ std::string counted(std::size_t n, const char* what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
-std::string verdict(const CheckResult& result) {
-  std::map<std::string, int> by;
-  for (const FrameResult& frame : result.frames) {
-    if (frame.passed()) ++by[decided_by_name(frame.decided_by)];
-  }
-  std::string how;
-  for (const auto& [name, n] : by) how += (how.empty() ? "" : ", ") + fmt::format("{} by {}", n, name);
-  const int failed = result.failed();
-  const std::string all = counted(result.frames.size(), "frame");
-  if (failed == 0) return fmt::format("{} the same ({})", all, how);
-  return fmt::format("{} of {} {}{}", failed, all, failed == 1 ? "differs" : "differ",
-                     how.empty() ? "" : fmt::format("; the same are {}", how));
-}
-
 std::string frame_text(const FrameResult& frame) {
   std::string text;
   const std::string label = fmt::format("  frame {}: ", frame.frame);
@@ -60,9 +46,23 @@ std::string masked_text(const CheckResult& result) {
 
 }  // namespace
 
+std::string verdict_text(const CheckResult& result) {
+  std::map<std::string, int> by;
+  for (const FrameResult& frame : result.frames) {
+    if (frame.passed()) ++by[decided_by_name(frame.decided_by)];
+  }
+  std::string how;
+  for (const auto& [name, n] : by) how += (how.empty() ? "" : ", ") + fmt::format("{} by {}", n, name);
+  const int failed = result.failed();
+  const std::string all = counted(result.frames.size(), "frame");
+  if (failed == 0) return fmt::format("{} the same ({})", all, how);
+  return fmt::format("{} of {} {}{}", failed, all, failed == 1 ? "differs" : "differ",
+                     how.empty() ? "" : fmt::format("; the same are {}", how));
+}
+
 std::string check_text(const CheckResult& result) {
   std::string text =
-      fmt::format("{} against {}: {}\n", result.run.string(), result.golden.string(), verdict(result));
+      fmt::format("{} against {}: {}\n", result.run.string(), result.golden.string(), verdict_text(result));
   for (const Cause& cause : result.causes) text += fmt::format("  {}: {}\n", cause.kind, cause.text);
   for (const SequenceFinding& finding : result.sequence.findings) text += fmt::format("  {}\n", finding.text);
   if (!result.passed()) text += fmt::format("  bad frames: {}\n", bad_text(result.sequence));
@@ -71,7 +71,7 @@ std::string check_text(const CheckResult& result) {
   if (worst.size() > most_frames) text += fmt::format("  and {} more\n", worst.size() - most_frames);
   text += masked_text(result);
   for (const std::string& remark : result.remarks) text += fmt::format("  remark: {}\n", remark);
-  return text + fmt::format("  report: {}\n", (result.out / "report.json").string());
+  return text + fmt::format("  report: {}\n", (result.out / "report.html").string());
 }
 
 }  // namespace lagomorph::apps

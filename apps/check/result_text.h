@@ -10,4 +10,7 @@ namespace lagomorph::apps {
 /// break, runs of bad frames, remarks, where the reports are.
 std::string check_text(const CheckResult&);
 
+/// "2 of 9 frames differ; the same are 7 by bytes".
+std::string verdict_text(const CheckResult&);
+
 }  // namespace lagomorph::apps

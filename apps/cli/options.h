@@ -43,6 +43,7 @@ struct Options {
   bool prune = false;                           // approve --prune
   bool yes = false;                             // approve --prune --yes
   bool ctest = false;                           // check --ctest
+  bool assets = false;                          // check --assets
   bool github = false;                          // check --github
   std::vector<std::string> columns;             // plot --columns; empty: all
   std::vector<std::string> fields;              // export --fields; empty: as the format has it

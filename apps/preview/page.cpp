@@ -4,9 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "apps/preview/chart.h"
+#include "apps/page/chart.h"
+#include "apps/page/html.h"
+#include "apps/page/style.h"
 #include "apps/preview/contact_sheet.h"
-#include "apps/preview/html.h"
 #include "apps/preview/story.h"
 
 namespace lagomorph::apps {

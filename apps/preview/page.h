@@ -13,7 +13,7 @@ namespace lagomorph::apps {
 /// index.html: one file that needs nothing else, no network and, but for the player's controls, no script.
 std::string preview_page(const PreviewMaterial&, const Shown&, const std::vector<PageFrame>&);
 
-/// The page's style and script.
-extern const std::string_view page_style, player_script;
+/// The page's script.
+extern const std::string_view player_script;
 
 }  // namespace lagomorph::apps

@@ -1,10 +1,8 @@
 #include "apps/preview/page_frames.h"
 
-#include <fmt/format.h>
-
 #include "apps/file_io.h"
-#include "apps/preview/html.h"
-#include "apps/video/process.h"
+#include "apps/page/html.h"
+#include "apps/page/webp.h"
 #include "render/png.h"
 #include "render/png_read.h"
 
@@ -16,44 +14,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_bytes = 6'000'000;  // of all URIs
 constexpr Size png_box = {320, 320};
 constexpr int png_compression = 9;
-
-/// The small pictures as WebP; none when ffmpeg cannot.
-std::vector<std::string> webps(const std::vector<const ShownFrame*>& frames, const fs::path& folder,
-                               const std::function<bool()>& stop) {
-  make_folder(folder);
-  for (std::size_t i = 0; i < frames.size(); ++i)
-    link_file(frames[i]->small, folder / fmt::format("{:06}.png", i));
-  std::string pattern = "file:";
-  for (const char c : fs::absolute(folder).string())
-    pattern += c == '%' ? std::string("%%") : std::string(1, c);
-  const ProcessResult result = run_process({"ffmpeg",
-                                            "-hide_banner",
-                                            "-loglevel",
-                                            "error",
-                                            "-nostdin",
-                                            "-y",
-                                            "-i",
-                                            pattern + "/%06d.png",
-                                            "-c:v",
-                                            "libwebp",
-                                            "-quality",
-                                            "80",
-                                            "-compression_level",
-                                            "3",
-                                            "-threads",
-                                            "1",
-                                            "-f",
-                                            "image2",
-                                            "-start_number",
-                                            "0",
-                                            pattern + "/%06d.webp"},
-                                           stop);
-  if (!result.found || result.status != 0) return {};
-  std::vector<std::string> all;
-  for (std::size_t i = 0; i < frames.size(); ++i)
-    all.push_back(read_file(folder / fmt::format("{:06}.webp", i)));
-  return all;
-}
 
 std::string small_png(const fs::path& file) {
   const render::Picture picture = opaque_picture(render::read_png(read_file(file), file.string()));
@@ -67,7 +27,9 @@ std::vector<PageFrame> page_frames(const Shown& shown, const fs::path& work,
                                    const std::function<bool()>& stop) {
   const std::vector<const ShownFrame*> frames = shown.readable();
   if (frames.empty()) return {};
-  const std::vector<std::string> encoded = webps(frames, work / "page", stop);
+  std::vector<fs::path> files;
+  for (const ShownFrame* frame : frames) files.push_back(frame->small);
+  const std::vector<std::string> encoded = webps(files, work / "page", stop);
   std::vector<PageFrame> all;
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < frames.size() && !stop(); ++i) {

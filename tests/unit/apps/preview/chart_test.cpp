@@ -1,4 +1,4 @@
-#include "apps/preview/chart.h"
+#include "apps/page/chart.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "apps/preview/html.h"
+#include "apps/page/html.h"
 
 #include <gtest/gtest.h>
 

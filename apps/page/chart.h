@@ -19,6 +19,7 @@ struct Chart {
   std::vector<int> frames;     // ascending; where the values are
   std::vector<Series> series;  // each of frames.size() values
   double fps = 30.0;           // the axis tells seconds
+  std::string x_unit = " s";   // after the axis' numbers
   bool bars = false;           // stacked, from 0 on; otherwise lines
 };
 std::string chart_html(const Chart&);

@@ -1,12 +1,12 @@
-#include "apps/preview/chart.h"
+#include "apps/page/chart.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "apps/page/html.h"
 #include "apps/plot/ticks.h"
-#include "apps/preview/html.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -113,7 +113,7 @@ std::string chart_html(const Chart& chart) {
   for (const double t : last > first ? ticks(first, last) : std::vector<double>{first}) {
     const double x = x_of(chart, t * chart.fps);
     if (x < -1e-9 || x > 1 + 1e-9) continue;
-    x_labels += fmt::format("<span style=\"left:{:.2f}%\">{} s</span>", 100 * x, number(t));
+    x_labels += fmt::format("<span style=\"left:{:.2f}%\">{}{}</span>", 100 * x, number(t), chart.x_unit);
   }
   return fmt::format(
       "<figure class=\"chart\" data-frames=\"{}\" data-bars=\"{}\"><figcaption><b>{}</b> <span>{}</span>"

@@ -1,4 +1,4 @@
-#include "apps/preview/page.h"
+#include "apps/page/style.h"
 
 namespace lagomorph::apps {
 
