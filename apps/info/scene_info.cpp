@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -7,6 +10,8 @@
 #include "apps/run/disk_space.h"
 #include "apps/scene/scene.h"
 #include "sim/integrator.h"
+#include "sim/placement.h"
+#include "sim/tissue.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -19,8 +24,53 @@ int pinned_of(const sim::Model& model, const sim::Range& vertices) {
                           std::lower_bound(pinned.begin(), pinned.end(), vertices.begin));
 }
 
-void add_bodies(Report& report, const SceneDesc& scene, const sim::Model& model,
-                const std::vector<sim::Surface>& surfaces) {
+/// "young 1e5 .. 4e5 Pa" of each constant of a body that is not the same everywhere, and its models.
+struct Ranges {
+  std::map<std::string, std::pair<double, double>> of;  // least and largest, by key
+  std::map<std::string, int> models;                    // tets of each
+
+  void add(const std::string& key, double value) {
+    const auto [at, is_new] = of.try_emplace(key, value, value);
+    if (is_new) return;
+    at->second.first = std::min(at->second.first, value);
+    at->second.second = std::max(at->second.second, value);
+  }
+};
+
+Ranges ranges_of(const sim::BodyInput& body) {
+  sim::TetMesh placed = body.mesh;
+  sim::place(placed.X, body.settings);
+  const sim::Tissue tissue = sim::make_tissue(placed, body.settings, "body '" + body.settings.name + "'");
+  Ranges ranges;
+  for (const double density : tissue.densities) ranges.add("density", density);
+  for (const sim::ElasticBody& part : tissue.parts) {
+    ranges.models[part.material.model] += part.tets.size();
+    for (const std::string& key : sim::field_keys()) {
+      if (const auto value = sim::constant_of(part.material, key)) ranges.add(key, *value);
+    }
+  }
+  return ranges;
+}
+
+void add_ranges(Report& report, const sim::BodyInput& body, nlohmann::ordered_json& json) {
+  if (body.settings.region.empty() && body.settings.field.empty()) return;
+  const Ranges ranges = ranges_of(body);
+  std::string models, constants;
+  for (const auto& [model, tets] : ranges.models) {
+    models += fmt::format("{}{} tets of {}", models.empty() ? "" : ", ", count_text(tets), model);
+    json["models"][model] = tets;
+  }
+  for (const auto& [key, range] : ranges.of) {
+    constants += fmt::format("{}{} {} .. {}", constants.empty() ? "" : ", ", key, number_text(range.first),
+                             number_text(range.second));
+    json["ranges"][key] = {range.first, range.second};
+  }
+  report.add_text("", models);
+  report.add_text("", constants);
+}
+
+void add_bodies(Report& report, const SceneDesc& scene, const std::vector<sim::BodyInput>& inputs,
+                const sim::Model& model, const std::vector<sim::Surface>& surfaces) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < scene.body.size(); ++i) {
     const BodyDesc& described = scene.body[i];
@@ -43,6 +93,7 @@ void add_bodies(Report& report, const SceneDesc& scene, const sim::Model& model,
                    {"density", described.physics.density},
                    {"surface", described.surface.mesh},
                    {"triangles", triangles}});
+    add_ranges(report, inputs[i], all.back());
   }
   report.add_json("bodies", all);
 }
@@ -93,12 +144,13 @@ void add_disk(Report& report, const SceneDesc& scene, const sim::Model& model) {
 Report scene_info(const fs::path& file, const std::vector<std::string>& overrides) {
   const SceneDesc scene = load_scene(file, overrides);
   Progress quiet(true);
-  const sim::Model model = build_model(scene, quiet);
+  const std::vector<sim::BodyInput> inputs = read_bodies(scene, quiet);
+  const sim::Model model(inputs, scene.time.gravity);
   const std::vector<sim::Surface> surfaces = build_surfaces(scene, model, quiet);
 
   Report report(fmt::format("{}: scene '{}'", file.string(), scene.name), "scene", file.string());
   report.add_json("name", scene.name);
-  add_bodies(report, scene, model, surfaces);
+  add_bodies(report, scene, inputs, model, surfaces);
   add_box(report, model.mesh().X.colwise().minCoeff(), model.mesh().X.colwise().maxCoeff());
   report.add("mass", number_text(model.total_mass()) + " kg", "mass", model.total_mass());
   report.add("unknowns", count_text(model.pins().free_dofs()) + " free coordinates", "unknowns",
