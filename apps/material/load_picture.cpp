@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/preview/chart.h"
+#include "apps/page/chart.h"
 
 namespace lagomorph::apps {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "apps/plot/stroke_font.h"
-#include "apps/preview/html.h"
+#include "apps/page/html.h"
 
 namespace lagomorph::apps {
 namespace {
