@@ -15,12 +15,11 @@ std::vector<std::string> radial_kernel_names();
 
 /// s(x) = Σ_i w_i φ(|x - x_i|) + p(x), equal to the values at the control points. With Σ_i w_i times every
 /// monomial of p zero, p is
-///   biharmonic    φ = r, p a constant: the kernel of [Bickel et al. 2009, "Capture and Modeling of
-///   Non-Linear
-///                 Heterogeneous Soft Tissue"], which has no width to tune; bounded far from the points;
+///   biharmonic    φ = r, p a constant: no width to tune, bounded far from the points;
 ///   triharmonic   φ = r³, p linear: the smoothest, linear fields are kept, and it grows far away;
 ///   gaussian      φ = exp(-(r/radius)²), p the mean of the values, to which it decays.
-/// [Wendland 2005, "Scattered Data Approximation", Chapter 8]
+/// Over control points of a body at rest as in [Bickel et al. 2009, "Capture and Modeling of Non-Linear
+/// Heterogeneous Soft Tissue"]; solvable by [Wendland 2005, "Scattered Data Approximation", Chapter 8]
 class RadialBasis {
 public:
   /// Throws InputError, prefixed by `where`: unknown kernel, other numbers of points and values, points that

@@ -175,6 +175,22 @@ double number(const std::string& value, const char* option) {
   return n;
 }
 
+/// "STRAIN:STRESS,STRAIN:STRESS,...".
+void apply_data(Options& o, const std::string& value) {
+  o.material.data.clear();
+  for (std::size_t begin = 0; begin <= value.size();) {
+    const std::size_t end = std::min(value.find(',', begin), value.size());
+    const std::string pair = value.substr(begin, end - begin);
+    const std::size_t colon = pair.find(':');
+    if (colon == std::string::npos) {
+      wrong_input(fmt::format("--data {}: must be STRAIN:STRESS,STRAIN:STRESS,...", value));
+    }
+    o.material.data.push_back(
+        {number(pair.substr(0, colon), "--data"), number(pair.substr(colon + 1), "--data")});
+    begin = end + 1;
+  }
+}
+
 /// X,Y,Z,STIFFNESS or X,Y,Z,STIFFNESS,EXPONENT.
 void apply_fibre(Options& o, const std::string& value) {
   std::vector<double> numbers;
@@ -287,6 +303,8 @@ constexpr OptionRow option_rows[] = {
      [](Options& o, const std::string& v) { o.material.bulk = number(v, "--bulk"); }},
     {"--preset", "NAME", " material ", "young and poisson of rubber, jelly, muscle, fat or silicone",
      [](Options& o, const std::string& v) { o.material.preset = v; }},
+    {"--data", "X:PA,...", " material ", "of stress_strain: nominal strain and stress of uniaxial loading",
+     apply_data},
     {"--fibre", "X,Y,Z,PA", " material ",
      "with fibres along X,Y,Z of this stiffness; a fifth number: exponent", apply_fibre},
     {"--F", "NUMBERS", " material ", "one deformation gradient, f00,f01,...,f22; without it: curves",

@@ -8,6 +8,7 @@
 #include "sim/materials/mooney_rivlin.h"
 #include "sim/materials/neo_hookean.h"
 #include "sim/materials/parameters.h"
+#include "sim/materials/stress_strain.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -98,6 +99,27 @@ ClosedForm linear(const Lame& m) {
   return {corotated(m).principal, [m](double amount) { return m.mu * amount; }};
 }
 
+/// G as the plain sum of which the material has the closed one.
+double summed(const sim::StressStrainCurve& curve, double x) {
+  double sum = 0.0;
+  for (; std::abs(x) > 1e-18; x *= -curve.poisson()) sum += curve.stress(x).T;
+  return sum;
+}
+
+/// P_i s_i = G(log s_i) - G(-nu/(1 - 2nu) log J).
+ClosedForm stress_strain(const sim::MaterialSettings& settings) {
+  const auto curve = sim::StressStrain::from_settings(settings, settings.model).curve;
+  return {[curve](const Vec3& s) -> Vec3 {
+            const double a = curve->poisson() / (1.0 - 2.0 * curve->poisson());
+            const double k = -summed(*curve, -a * std::log(s.prod()));
+            return s.unaryExpr([&](double t) { return (summed(*curve, std::log(t)) + k) / t; });
+          },
+          [curve](double amount) {
+            const double x = std::asinh(0.5 * amount);  // stretches e^x, e^-x, 1
+            return (summed(*curve, x) - summed(*curve, -x)) / pair_sum(amount);
+          }};
+}
+
 struct Row {
   std::string model;
   ClosedForm (*make)(const Lame&);
@@ -108,6 +130,7 @@ struct Row {
 ClosedForm closed_form(const sim::MaterialSettings& settings) {
   if (settings.model == sim::NeoHookean::kName) return neo_hookean(settings);
   if (settings.model == sim::MooneyRivlin::kName) return mooney_rivlin(settings);
+  if (settings.model == sim::StressStrain::kName) return stress_strain(settings);
   static const std::vector<Row> rows = {
       {"neo_hookean_log", neo_hookean_log},
       {"stable_neo_hookean", stable_neo_hookean},

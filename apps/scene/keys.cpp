@@ -317,7 +317,7 @@ void visit_field(sim::FieldSettings& f, KeyVisitor& v) {
         &f.values);
   v.key({.name = "kernel",
          .part = simulation,
-         .meaning = "radial basis function: biharmonic r (Bickel 2009), triharmonic r^3 with a linear "
+         .meaning = "radial basis function: biharmonic r, triharmonic r^3 with a linear "
                     "polynomial, gaussian exp(-(r/radius)^2)",
          .choices = sim::radial_kernel_names},
         &f.kernel);

@@ -20,6 +20,9 @@ std::string float_text(Float value) {
 std::string text(double value) { return float_text(value); }
 std::string text(float value) { return float_text(value); }
 
+std::string text(const std::array<double, 2>& value);
+std::string text(const sim::Vec3& value);
+
 template <class Range>
 std::string array_text(const Range& values) {
   std::string all;

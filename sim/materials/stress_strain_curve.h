@@ -28,6 +28,13 @@ public:
   };
   Values at(double x) const;
 
+  struct Stress {
+    double S = 0.0;      // ∫_0^x T [Pa]
+    double T = 0.0;      // [Pa]
+    double dT_dx = 0.0;  // [Pa]
+  };
+  Stress stress(double x) const;
+
   double poisson() const { return poisson_; }
   double young() const { return young_; }             // T' at rest [Pa]
   double largest_slope() const { return steepest_; }  // of T at the data [Pa]
@@ -37,10 +44,6 @@ private:
     double x, T, slope;
     double S = 0.0;  // ∫_0^x T
   };
-  struct Stress {
-    double S, T, dT_dx;
-  };
-  Stress stress(double x) const;
   void set_slopes();
   void close_the_sum_at_rest(std::size_t origin);
 

@@ -130,9 +130,9 @@ TEST(Tissue, MixesModelsAndLetsLaterRegionsWin) {
 TEST(Tissue, OfTwoStiffnessesInSeriesStretchesAsTwoSprings) {
   constexpr double kFirst = 1e5, kSecond = 4e5, kPulled = 0.1;
   BodyInput body{cube_mesh(4), {}};
-  body.settings.material = material(kFirst, 0.0, "linear_elasticity");
+  body.settings.material = material(kFirst, 0.0, "linear");
   RegionSettings half = half_of_cube();
-  half.material = material(kSecond, 0.0, "linear_elasticity");
+  half.material = material(kSecond, 0.0, "linear");
   body.settings.region = {half};
   PinSettings left, right;
   left.box = BoxSelector{Vec3(0, 0, 0), Vec3(0, 1, 1)};

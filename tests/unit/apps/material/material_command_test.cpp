@@ -77,10 +77,9 @@ TEST(MaterialCommand, TellsWrongInputInOneLine) {
   EXPECT_EQ(error({"stvk"}).find("lagomorph: error: material stvk: unknown material model 'stvk'; valid ones "
                                  "are neo_hookean, "),
             0u);
-  EXPECT_EQ(
-      error({"arap", "--F", "1,0,0"}),
-      "lagomorph: error: --F 1,0,0: must be nine finite numbers, row by row, between commas; wrong at "
-      "number 3\n");
+  EXPECT_EQ(error({"arap", "--F", "1,0,0"}),
+            "lagomorph: error: --F 1,0,0: must be nine finite numbers, row by row, between commas; wrong at "
+            "number 3\n");
   EXPECT_EQ(
       error({"arap", "--F", "1,0,0,0,1,0,0,0,nan"}),
       "lagomorph: error: --F 1,0,0,0,1,0,0,0,nan: must be nine finite numbers, row by row, between commas; "
@@ -91,6 +90,8 @@ TEST(MaterialCommand, TellsWrongInputInOneLine) {
       "with det F = -1\n");
   EXPECT_EQ(error({"arap", "--young", "stiff"}), "lagomorph: error: --young stiff: must be a number\n");
   EXPECT_EQ(error({"arap", "--young", "-1"}), "lagomorph: error: material arap: young = -1 must be > 0 Pa\n");
+  EXPECT_EQ(error({"stress_strain", "--data", "0.1:5,0.2"}),
+            "lagomorph: error: --data 0.1:5,0.2: must be STRAIN:STRESS,STRAIN:STRESS,...\n");
   EXPECT_EQ(error({"arap", "--fibre", "1,0"}),
             "lagomorph: error: --fibre 1,0: must be X,Y,Z,STIFFNESS or X,Y,Z,STIFFNESS,EXPONENT\n");
 }
@@ -109,6 +110,26 @@ TEST(MaterialCommand, LeavesCurvesInItsFolder) {
   const nlohmann::json curves = nlohmann::json::parse(json.out).at("curves");
   for (const char* loading : {"uniaxial", "biaxial", "shear", "volumetric"})
     EXPECT_EQ(curves.at(loading).at("stretch").size(), curves.at(loading).at("stress").size());
+}
+
+/// At the strains of the data the uniaxial curve is the data.
+TEST(MaterialCommand, ReproducesMeasuredDataUnderUniaxialLoad) {
+  sim::MaterialSettings settings;
+  settings.model = "stress_strain";
+  settings.poisson = 0.45;
+  settings.data = {{-0.25, -3e3}, {0.2, 2e3}, {0.5, 9e3}, {0.9, 4e4}};
+  const auto point = sim::make_material_point(settings, "test");
+  const std::vector<LoadCurve> curves = load_curves(*point, closed_form(settings));
+  int met = 0;
+  for (const LoadPoint& p : curves.at(0).points) {
+    for (const auto& [strain, stress] : settings.data) {
+      if (std::abs(p.stretch - 1.0 - strain) > 1e-9) continue;
+      EXPECT_NEAR(p.stress, stress, 1e-9 * 4e4) << strain;
+      EXPECT_NEAR(p.free_stretch, std::pow(1.0 + strain, -0.45), 1e-10) << strain;
+      ++met;
+    }
+  }
+  EXPECT_EQ(met, 4);
 }
 
 TEST(Presets, StandInTheReadme) {
@@ -130,6 +151,7 @@ TEST(LoadCurves, MeetTheClosedFormsOfEveryMaterial) {
     settings.model = model;
     settings.young = 1e6;
     settings.poisson = 0.3;
+    if (model == "stress_strain") settings.data = {{-0.3, -2.0}, {0.2, 1.0}, {0.5, 4.0}, {0.9, 12.0}};
     const auto point = sim::make_material_point(settings, "test");
     for (const LoadCurve& curve : load_curves(*point, closed_form(settings))) {
       SCOPED_TRACE(curve.loading);

@@ -144,7 +144,8 @@ TEST_F(StaticRun, DampedAdaptiveStepsAreResumedToTheSameBytes) {
   const auto header = lines("whole/energy.csv")[0], last = lines("whole/energy.csv").back();
   EXPECT_NE(header.find(",steps,rejected,damping_loss"), std::string::npos);
   double lost = 0.0;
-  for (const auto& frame : run_json("whole").at("frames")) {
+  const nlohmann::json whole = run_json("whole");
+  for (const auto& frame : whole.at("frames")) {
     lost += frame.at("damping_loss").get<double>();
     if (frame.at("frame") == 0) continue;
     EXPECT_GT(frame.at("damping_loss").get<double>(), 0.0);

@@ -39,7 +39,7 @@ TEST(MaterialTable, NamesItsRows) {
   EXPECT_EQ(material_names(),
             (std::vector<std::string>{"neo_hookean", "neo_hookean_log", "stable_neo_hookean",
                                       "stable_neo_hookean_log", "mooney_rivlin", "st_venant_kirchhoff",
-                                      "corotated", "fixed_corotated", "arap", "linear"}));
+                                      "corotated", "fixed_corotated", "arap", "linear", "stress_strain"}));
 }
 
 /// What check_material says of a material.
