@@ -25,7 +25,8 @@ template <int N, int P>
 std::array<Mat3, P> deformation_gradients(const ElementRule<N, P>& rule, const VecX& q) {
   Eigen::Matrix<double, 3, N - 1> x;
   for (std::size_t a = 1; a < N; ++a)
-    x.col(static_cast<Eigen::Index>(a) - 1) = q.segment<3>(3 * rule.nodes[a]) - q.segment<3>(3 * rule.nodes[0]);
+    x.col(static_cast<Eigen::Index>(a) - 1) =
+        q.segment<3>(3 * rule.nodes[a]) - q.segment<3>(3 * rule.nodes[0]);
   std::array<Mat3, P> F;
   for (std::size_t p = 0; p < P; ++p) F[p] = x * rule.D[p];
   return F;

@@ -18,9 +18,9 @@ VecX mean_load(const Model& model, double t, double h) {
 
 /// The velocity u = rate/h (q1 - q_still) that is damped, and where. Damping forces -C(q*) u with a C that is
 /// constant within the step add a convex quadratic to Φ, and so the step stays a minimization and its loss
-/// h uᵀ C u is never negative. q* is predicted along q̇0, off by h²/2 q̈: that keeps the order of each scheme,
-/// and since u is the velocity at the time of q* up to h², viscosity damps rotations only by the fourth power
-/// of h. To iterate on C(q*) would gain nothing more in order.
+/// h uᵀ C u is never negative. q* is predicted along q̇0, off by h²/2 q̈, for the time at which u is the
+/// velocity up to h²: that keeps the order of each scheme, and what viscosity takes from a rotation is only
+/// that error's.
 struct Damped {
   double rate = 1.0;
   double at = 0.5;  // q* = q0 + at h q̇0

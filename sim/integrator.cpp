@@ -149,7 +149,8 @@ StepReport take_measured_step(const Stepping& with, double h, State& state, Fram
     const VecX whole = std::exchange(state, before).q;
     step = take_step(with, 0.5 * h, state, report);
     if (is_good(step.status)) step = joined(step, take_step(with, 0.5 * h, state, report));
-    if (is_good(step.status)) step.error = largest_free(with.model.held(before.t + 0.5 * h).pins(), whole - state.q) / 3.0;
+    if (is_good(step.status))
+      step.error = largest_free(with.model.held(before.t + 0.5 * h).pins(), whole - state.q) / 3.0;
   }
   if (is_good(step.status) && !(*step.error <= *with.time.error_tolerance))
     step.status = StepStatus::inaccurate;

@@ -89,7 +89,7 @@ struct FrameReport {
   double damping_loss = 0.0;  // sum over the steps, >= 0 [J]
   double error = 0.0;         // largest estimate of a step, with time.error_tolerance [m]
   bool hit_rounding_floor = false;
-  std::vector<NewtonLog> newton;  // of every step tried, in order
+  std::vector<NewtonLog> newton;      // of every step tried, in order
   std::vector<Vec3> pin_forces = {};  // of each pin of the scene, in the last step [N]
   double work_pins = 0.0;             // sum over the steps [J]
   double work_loads = 0.0;            // likewise

@@ -60,7 +60,8 @@ public:
     for (int v = 0; v < body_.vertices.size(); ++v)
       if (marks_[static_cast<std::size_t>(v)]) f.segment<3>(3 * v) += total / static_cast<double>(count);
   }
-  /// ∫ φ over a boundary triangle: a third of it for each corner; of a quadratic tet's, for each midside node.
+  /// ∫ φ over a boundary triangle: a third of it for each corner; of a quadratic tet's, for each midside
+  /// node.
   bool add_traction(const Vec3& traction, double pressure) {
     bool any = false;
     for (const BoundaryFace& face : boundary_faces(mesh_, body_.tets)) {
@@ -74,8 +75,8 @@ public:
     }
     return any;
   }
-  /// Likewise over a tet: a quarter for each corner; of a quadratic one -1/20, and 1/5 for each midside node. f
-  /// [N/m^3].
+  /// Likewise over a tet: a quarter for each corner; of a quadratic one -1/20, and 1/5 for each midside node.
+  /// f [N/m^3].
   bool add_body_force(const Vec3& density_of_force) {
     bool any = false;
     const VecX X = Eigen::Map<const VecX>(mesh_.X.data(), mesh_.X.size());

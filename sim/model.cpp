@@ -269,7 +269,8 @@ double Model::min_J(const VecX& q) const {
       least = std::min(least, tet_volume(gather_corners(q, tet)) / tet_volume(gather_corners(X, tet)));
       continue;
     }
-    for (const Mat3& F : deformation_gradients(Tet10::rule(mesh_, j), q)) least = std::min(least, F.determinant());
+    for (const Mat3& F : deformation_gradients(Tet10::rule(mesh_, j), q))
+      least = std::min(least, F.determinant());
   }
   return least;
 }

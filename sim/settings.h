@@ -147,8 +147,8 @@ struct BodySettings {
   Vec3 velocity = Vec3::Zero();  // [m/s]
   Vec3 spin = Vec3::Zero();      // [rad/s]
   std::string velocities;        // file of a velocity for each vertex; whoever reads it fills in BodyInput's
-  std::string start = "rest";     // shape of frame 0 but for pinned vertices; see start_names()
-  int seed = 0;                   // of "scramble"
+  std::string start = "rest";    // shape of frame 0 but for pinned vertices; see start_names()
+  int seed = 0;                  // of "scramble"
   std::vector<PinSettings> pin;
   std::vector<SpringSettings> spring;
   std::vector<LoadSettings> load;

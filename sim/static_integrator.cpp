@@ -11,11 +11,11 @@ namespace {
 constexpr double kRoundingOfTime = 1e-9;
 
 /// Quasi-static equilibrium ∂V/∂q(q1) = 0 at the end of each frame, found by Newton's method on V; q̇ = 0.
-/// Time is but the load's parameter: of r = ∂V/∂q - f, with the loads f at the frame's end, a step h of the time
-/// T that is left to it goes to r(q1) = (1 - h/T) r(q0), so that what is out of balance falls linearly to
-/// nothing, and what is driven goes that part of its way. From the rest shape under gravity that is the load
-/// g t/T. Substeps, and the halving of a step that does not converge, are load steps. [Bonet and Wood 2008,
-/// Sec. 9.6]
+/// Time is but the load's parameter: of r = ∂V/∂q - f, with the loads f at the frame's end, a step h of the
+/// time T that is left to it goes to r(q1) = (1 - h/T) r(q0), so that what is out of balance falls linearly
+/// to nothing, and what is driven goes that part of its way. From the rest shape under gravity that is the
+/// load g t/T. Substeps, and the halving of a step that does not converge, are load steps. [Bonet and Wood
+/// 2008, Sec. 9.6]
 class Static : public Integrator {
 public:
   Static(const TimeSettings& time, const SolverSettings& settings, const Model& model)

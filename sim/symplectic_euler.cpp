@@ -43,7 +43,6 @@ public:
     VecX q = state.q, qdot = state.qdot;
     double rest = h;
     int taken = 0;
-    StepReport report{StepStatus::converged, 0, 0.0, h};
     report.error = 0.0;
     while (rest > 0.0) {
       const double steps = std::ceil(rest / (kSafety * stable_step(model, q)));

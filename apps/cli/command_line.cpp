@@ -309,9 +309,11 @@ constexpr OptionRow option_rows[] = {
      "with fibres along X,Y,Z of this stiffness; a fifth number: exponent", apply_fibre},
     {"--F", "NUMBERS", " material ", "one deformation gradient, f00,f01,...,f22; without it: curves",
      [](Options& o, const std::string& v) { o.F = v; }},
-    {"--quiet", nullptr, " run simulate render check approve preview plot export compare info material refine ",
+    {"--quiet", nullptr,
+     " run simulate render check approve preview plot export compare info material refine ",
      "no progress, only errors", [](Options& o, const std::string&) { o.quiet = true; }},
-    {"--json", nullptr, " run simulate render check approve preview plot export compare info material refine ",
+    {"--json", nullptr,
+     " run simulate render check approve preview plot export compare info material refine ",
      "print the result as JSON on stdout", [](Options& o, const std::string&) { o.json = true; }},
 };
 

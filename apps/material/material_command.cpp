@@ -26,8 +26,9 @@ sim::Mat3 parse_F(const std::string& text) {
     const auto [stop, error] = std::from_chars(begin, end, F(k / 3, k % 3));
     const bool followed = k < 8 ? stop != end && *stop == ',' : stop == end;
     if (error != std::errc() || !followed || !std::isfinite(F(k / 3, k % 3))) {
-      wrong_input(fmt::format(
-          "--F {}: must be nine finite numbers, row by row, between commas; wrong at number {}", text, k + 1));
+      wrong_input(
+          fmt::format("--F {}: must be nine finite numbers, row by row, between commas; wrong at number {}",
+                      text, k + 1));
     }
     begin = stop + 1;
   }

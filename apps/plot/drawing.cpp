@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "apps/plot/stroke_font.h"
 #include "apps/page/html.h"
+#include "apps/plot/stroke_font.h"
 
 namespace lagomorph::apps {
 namespace {

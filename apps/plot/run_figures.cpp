@@ -41,7 +41,7 @@ constexpr Kind kinds[] = {
     {"angular_momentum", " angular_momentum_* ", "Angular momentum", "angular momentum", "kg m^2/s"},
     {"pin_force", " pin_force_* ", "Force of the pins", "force", "N"},
     {"determinant", " min_J max_J ", "Volume ratio of the worst element", "J = det F", ""},
-    {"newton", " newton_iterations steps halvings ", "Steps and Newton iterations", "number a frame", "",
+    {"newton", " newton_iterations steps rejected halvings ", "Steps and Newton iterations", "number a frame", "",
      Over::frame, false, true},
     {"residual", " residual ", "Largest residual of Newton's method", "residual over weight", "", Over::frame,
      true},

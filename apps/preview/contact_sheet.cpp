@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "apps/file_io.h"
-#include "apps/preview/story.h"
 #include "apps/plot/stroke_font.h"
+#include "apps/preview/story.h"
 #include "render/png_read.h"
 
 namespace lagomorph::apps {

@@ -9,7 +9,8 @@ std::string energy_csv(const std::map<int, FrameRecord>& frames) {
       "frame,time,kinetic,elastic,gravitational,total,mass,momentum_x,momentum_y,momentum_z,"
       "newton_iterations,residual,work_pins,work_loads,pin_force_x,pin_force_y,pin_force_z,"
       "angular_momentum_x,angular_momentum_y,angular_momentum_z,min_J,steps,rejected,damping_loss\n";
-  double work_pins = 0.0, work_loads = 0.0, damping_loss = 0.0;  // since frame 0, added up in the order of the frames
+  double work_pins = 0.0, work_loads = 0.0,
+         damping_loss = 0.0;  // since frame 0, added up in the order of the frames
   for (const auto& [frame, record] : frames) {
     if (!record.state) continue;
     const StateRecord& s = *record.state;

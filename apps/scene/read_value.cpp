@@ -113,16 +113,6 @@ public:
     }
   }
 
-  /// Points of a curve.
-  void read(const Key& k, const std::string& path, const toml::node& node,
-            std::vector<std::array<double, 2>>& value) {
-    const toml::array& a = array(path, node, -1, "pairs, [[time, factor], ...]");
-    value.clear();
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      read_elements<2>(k, fmt::format("{}.{}", path, i), *a.get(i), value.emplace_back().data());
-    }
-  }
-
 private:
   std::string place(const toml::node& node) const { return document_.place(node.source()); }
 

@@ -23,10 +23,10 @@ struct SurfaceDesc {
 
 struct BodyDesc {
   sim::BodySettings physics;
-  std::string mesh;       // tet mesh; relative to the scene file (or to RUN, for RUN/scene.toml)
+  std::string mesh;              // tet mesh; relative to the scene file (or to RUN, for RUN/scene.toml)
   std::string element = "mesh";  // what the mesh has; or "linear", "quadratic": made so as it is read
-  SurfaceDesc surface;    // [body.surface]
-  render::Material look;  // [body.look]
+  SurfaceDesc surface;           // [body.surface]
+  render::Material look;         // [body.look]
   // "a.toml:12:1: body.0.pin.0": where each stands, for errors
   std::vector<std::string> pin_places, spring_places, load_places;
 };

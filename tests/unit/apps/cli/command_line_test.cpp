@@ -107,10 +107,12 @@ TEST(CommandLine, TellsWhatIsWrong) {
        "unknown command 'rnu'; did you mean 'run'? Commands are run, simulate, render, check, approve, "
        "preview, plot, export, compare, info, material"},
       {{"publish"},
-       "unknown command 'publish'; commands are run, simulate, render, check, approve, preview, plot, export, compare, "
+       "unknown command 'publish'; commands are run, simulate, render, check, approve, preview, plot, "
+       "export, compare, "
        "info, material"},
       {{"--quiet", "run"},
-       "'--quiet' where a command is expected (run, simulate, render, check, approve, preview, plot, export, compare, "
+       "'--quiet' where a command is expected (run, simulate, render, check, approve, preview, plot, export, "
+       "compare, "
        "info, material); "
        "options follow "
        "the "
