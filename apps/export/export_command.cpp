@@ -84,7 +84,7 @@ ExitStatus export_command(const Options& options) {
     const fs::path file = run.state(frame);
     const sim::State state =
         decode_state(read_file(file), file.string(), frame, scene.time.fps, model.mesh().vertex_count());
-    files.emplace_back(state.t, frame_file(frame, "." + std::string(format.name)));
+    files.emplace_back(state.t, frame_file(frame, fmt::format(".{}", format.name)));
     write_file(out / files.back().second, format.bytes(exported, state));
     progress.frame_done();
   }

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/page/chart.h"
+#include "apps/plot/ticks.h"
 
 namespace lagomorph::apps {
 namespace {

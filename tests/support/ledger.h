@@ -34,6 +34,10 @@ inline void tell(const std::string& section, std::initializer_list<std::string> 
 }
 
 /// A figure as it stands in a table: three digits.
-inline std::string told(double value) { return fmt::format("{:.3g}", value); }
+inline std::string told(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
+}
 
 }  // namespace lagomorph

@@ -11,6 +11,7 @@
 #include "sim/point_location.h"
 #include "sim/refine.h"
 #include "sim/statics.h"
+#include "tests/support/ledger.h"
 #include "tests/unit/sim/mesh_fixtures.h"
 
 /// What the elements are worth: orders of convergence, and locking.
@@ -107,7 +108,8 @@ double error_of(TetMesh mesh) {
 TEST(ManufacturedSolution, LinearTetsConvergeWithOrderTwo) {
   const double coarse = error_of(irregular_cube_mesh(4)), fine = error_of(refined(irregular_cube_mesh(4)));
   const double order = std::log2(coarse / fine);
-  RecordProperty("order", std::to_string(order));
+  tell("manufactured", {"element", "error on a cube of 4³ cells, L2 [m]", "refined", "order"},
+       {"tet4", told(coarse), told(fine), told(order)});
   EXPECT_NEAR(order, 2.0, 0.15) << coarse << " m, " << fine << " m";
 }
 
@@ -115,7 +117,7 @@ TEST(ManufacturedSolution, QuadraticTetsConvergeWithOrderThree) {
   const TetMesh mesh = with_quadratic_tets(irregular_cube_mesh(3));
   const double coarse = error_of(mesh), fine = error_of(refined(mesh));
   const double order = std::log2(coarse / fine);
-  RecordProperty("order", std::to_string(order));
+  tell("manufactured", {}, {"tet10, 3³ cells", told(coarse), told(fine), told(order)});
   EXPECT_NEAR(order, 3.0, 0.2) << coarse << " m, " << fine << " m";
 }
 
@@ -151,9 +153,13 @@ TEST(VolumetricLocking, LinearTetsLockAndQuadraticOnesDoNot) {
   EXPECT_NEAR(reference, 1.0, 0.03);
   const double tet10 = sag_ratio(quadratic, 0.49), tet4 = sag_ratio(coarse, 0.49);
   const double tet4_refined = sag_ratio(refined(coarse), 0.49);  // as many nodes as tet10 has
-  RecordProperty("tet4_tet4refined_tet10_reference",
-                 std::to_string(tet4) + " " + std::to_string(tet4_refined) + " " + std::to_string(tet10) +
-                     " " + std::to_string(reference));
+  const auto row = [](const char* what, double ratio) {
+    tell("locking", {"bar of 10×2×2 cells, ν = 0.49", "sag / Timoshenko's"}, {what, told(ratio)});
+  };
+  row("tet4", tet4);
+  row("tet4, refined: as many nodes as tet10 has", tet4_refined);
+  row("tet10", tet10);
+  row("tet10, refined", reference);
   EXPECT_GT(tet10, 0.95 * reference);
   EXPECT_LT(tet4, 0.5 * reference);
   EXPECT_LT(tet4_refined, 0.8 * reference);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/parallel.h"
+#include "tests/support/ledger.h"
 #include "tests/support/truth.h"
 #include "tests/unit/sim/mesh_fixtures.h"
 #include "tests/unit/sim/motion.h"
@@ -39,24 +40,30 @@ TEST_P(Bar, MeetsTheReferenceForFiftySteps) {
   for (const auto& row : rows)
     for (int k = 0; k < 3; ++k)
       largest[k] = std::max(largest[k], std::abs(row[2 + static_cast<std::size_t>(k)]));
+  double worst = 0.0, worst_energy = 0.0;  // of the tip, or of all positions where there are; of a total
   for (std::size_t frame = 0; frame <= 50; ++frame) {
     if (frame > 0) run.advance(1);
     if (HasFatalFailure()) return;
     const auto& row = rows[frame];
     const Energies energies = run.model.energies_of(run.state);
+    worst_energy = std::max(worst_energy, std::abs(energies.elastic - row[3]) / largest[1]);
     EXPECT_NEAR(energies.kinetic, row[2], 1e-8 * largest[0]);
     EXPECT_NEAR(energies.elastic, row[3], 1e-8 * largest[1]);
     EXPECT_NEAR(energies.gravitational, row[4], 1e-8 * largest[2]);
     const Vec3 momentum = run.model.momentum(run.state);
     for (int k = 0; k < 3; ++k) {
+      worst = std::max(worst, std::abs(run.state.q[3 * 6 + k] - row[6 + static_cast<std::size_t>(k)]));
       EXPECT_NEAR(run.state.q[3 * 6 + k], row[6 + static_cast<std::size_t>(k)], 1e-8);  // the tip
       EXPECT_NEAR(momentum[k], row[15 + static_cast<std::size_t>(k)], 1e-7);
     }
     if (!has_positions) continue;
     const Eigen::Map<const VecX> expected(
         positions.data() + static_cast<std::ptrdiff_t>(frame) * run.state.q.size(), run.state.q.size());
+    worst = std::max(worst, (run.state.q - expected).cwiseAbs().maxCoeff());
     EXPECT_LT((run.state.q - expected).cwiseAbs().maxCoeff(), 1e-8);
   }
+  tell("dynamic", {"50 steps of", "largest error of a position [m]", "of the elastic energy / its largest"},
+       {c.name, told(worst), told(worst_energy)});
 }
 
 class BarEnd : public testing::TestWithParam<std::pair<const char*, const char*>> {};
@@ -158,6 +165,9 @@ TEST_P(Convergence, HasItsOrder) {
     const std::string exact = std::string("4b_cube_order/exact_t0.5_") + model + ".csv";
     const double coarse = difference(cube_at_half_a_second(model, expected.integrator, 480), exact).q;
     const double fine = difference(cube_at_half_a_second(model, expected.integrator, 960), exact).q;
+    tell("time_order", {"integrator", "model", "error after 480 steps [m]", "after 960", "order"},
+         {expected.integrator, truth::model_name(model), told(coarse), told(fine),
+          told(std::log2(coarse / fine))});
     EXPECT_NEAR(std::log2(coarse / fine), expected.order, 0.03) << model << " " << coarse << " " << fine;
     EXPECT_LT(fine, expected.largest) << model;
   }

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "tests/support/ledger.h"
 #include "tests/unit/sim/mesh_fixtures.h"
 #include "tests/unit/sim/motion.h"
 
@@ -97,7 +98,10 @@ TEST_P(InversionRecovery, FindsHomeInStatics) {
   run.integrator = make_integrator(run.time, run.solver, run.model);
   const FrameReport report = run.advance();
   ASSERT_TRUE(is_good(report.status)) << report.reason;
-  EXPECT_LT((run.state.q - rest_of(run.model)).cwiseAbs().maxCoeff(), 1e-6) << report.newton_iterations;
+  const double worst = (run.state.q - rest_of(run.model)).cwiseAbs().maxCoeff();
+  tell("recovery", {"start", "model", "Newton iterations to rest", "largest distance to it [m]"},
+       {c.start, c.model, std::to_string(report.newton_iterations), told(worst)});
+  EXPECT_LT(worst, 1e-6) << report.newton_iterations;
 }
 
 /// Nothing holds it: damped motion ends in the rest shape, wherever and however turned.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/ledger.h"
 #include "tests/support/truth.h"
 #include "tests/unit/sim/mesh_fixtures.h"
 #include "tests/unit/sim/motion.h"
@@ -91,6 +92,9 @@ TEST(Newton, ConvergesQuadratically) {
     ASSERT_EQ(static_cast<int>(at.size()), report.newton_iterations + 1);
     EXPECT_EQ(at.front().step, 0.0);
     EXPECT_EQ(at.back().residual, report.residual);
+    std::string residuals;
+    for (const NewtonIterate& i : at) residuals += (residuals.empty() ? "" : ", ") + told(i.residual);
+    tell("newton", {"integrator", "residual after each iteration"}, {integrator, residuals});
     int quadratic = 0;
     for (std::size_t k = 1; k < at.size(); ++k) {
       EXPECT_LE(at[k].energy, at[k - 1].energy + 1e-12 * std::abs(at[k - 1].energy));

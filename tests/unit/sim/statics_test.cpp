@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/ledger.h"
 #include "tests/support/truth.h"
 
 namespace lagomorph::sim {
@@ -32,6 +33,8 @@ TEST_P(SaggingBar, MeetsTruth) {
     for (int k = 0; k < 3; ++k)
       worst = std::max(
           worst, std::abs(rows[v][4 + static_cast<std::size_t>(k)] - state.q[3 * static_cast<int>(v) + k]));
+  tell("static", {"bar", "model", "largest error of a position [m]"},
+       {c.name, truth::model_name(c.model), told(worst)});
   EXPECT_LT(worst, 1e-8);
 
   const auto expected =

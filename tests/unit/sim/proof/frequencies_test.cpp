@@ -9,6 +9,7 @@
 #include "tests/support/ledger.h"
 #include "tests/support/modes.h"
 #include "tests/unit/sim/mesh_fixtures.h"
+#include "tests/unit/sim/proof/bars.h"
 
 /// Natural frequencies: those of the generalized eigenproblem K φ = ω² M φ against the closed forms of bars
 /// and beams, and those of the simulated motion against the eigenproblem.
@@ -21,8 +22,7 @@ constexpr double kYoung = 1e6, kDensity = 1000.0;
 /// A bar along x from 0 to `length`, held where x = 0.
 Model bar(const Eigen::Vector3i& cells, double length, double thickness, double poisson,
           const std::string& element) {
-  BodyInput body{box_mesh(cells, Vec3(length, thickness, thickness)), {}};
-  body.settings.element = element;
+  BodyInput body{bar_mesh(cells, Vec3(length, thickness, thickness), element), {}};
   body.settings.density = kDensity;
   body.settings.material.young = kYoung;
   body.settings.material.poisson = poisson;

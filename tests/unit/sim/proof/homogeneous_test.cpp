@@ -9,6 +9,7 @@
 #include "tests/support/ledger.h"
 #include "tests/support/truth.h"
 #include "tests/unit/sim/mesh_fixtures.h"
+#include "tests/unit/sim/proof/bars.h"
 
 /// A cube between sliding plates, one drawn apart: its sides and its force in closed form, whatever its mesh.
 namespace lagomorph::sim {
@@ -48,7 +49,7 @@ Model cube(const Case& c, double young, double poisson, bool biaxial) {
     if (X.minCoeff() < 0.01 || X.maxCoeff() > 0.99) continue;
     for (int k = 0; k < 3; ++k) X[k] += 0.05 * std::sin(7.0 * v + 2.0 * k);
   }
-  body.settings.element = c.element;
+  if (c.element == "quadratic") body.mesh = with_quadratic_tets(body.mesh);
   body.settings.material.model = truth::model_name(c.truth_model);
   body.settings.material.young = young;
   body.settings.material.poisson = poisson;

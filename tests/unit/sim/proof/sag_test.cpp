@@ -7,6 +7,7 @@
 #include "sim/statics.h"
 #include "tests/support/ledger.h"
 #include "tests/unit/sim/mesh_fixtures.h"
+#include "tests/unit/sim/proof/bars.h"
 
 /// A slender cantilever that sags by next to nothing goes, refined, to beam theory.
 namespace lagomorph::sim {
@@ -34,8 +35,7 @@ TEST_P(Sag, ConvergesToTimoshenko) {
   std::vector<double> errors;
   for (const int n : GetParam().cells) {
     const int across = std::max(1, n / 20);
-    BodyInput body{box_mesh({n, across, across}, Vec3(length, t, t)), {}};
-    body.settings.element = GetParam().name;
+    BodyInput body{bar_mesh({n, across, across}, Vec3(length, t, t), GetParam().name), {}};
     body.settings.density = density;
     body.settings.material.young = young;
     body.settings.material.poisson = poisson;
