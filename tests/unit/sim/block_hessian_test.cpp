@@ -56,7 +56,7 @@ SparseMatrix by_triplets(const TetMesh& mesh, const std::vector<double>& element
     for (int b = 0; b < 4; ++b) {
       for (int a = 0; a <= b; ++a) {
         const double* block =
-            element_matrices.data() + TetGather::kMatrixSize * j + 9 * TetGather::pair(a, b);
+            element_matrices.data() + TetGather::matrix_size(4) * j + 9 * TetGather::pair(a, b);
         const int i = mesh.tets[j][static_cast<std::size_t>(a)],
                   k = mesh.tets[j][static_cast<std::size_t>(b)];
         for (int c = 0; c < 3; ++c) {
@@ -79,11 +79,17 @@ TetMesh ascending_cube(int n) {
   return mesh;
 }
 
+std::vector<int> nodes_of(const TetMesh& mesh) {
+  std::vector<int> nodes;
+  for (const Tet& tet : mesh.tets) nodes.insert(nodes.end(), tet.begin(), tet.end());
+  return nodes;
+}
+
 TEST(TetGather, AddsMatricesAsTripletsDo) {
   const TetMesh mesh = ascending_cube(3);
   const auto pattern = pattern_of(mesh);
-  const TetGather gather(mesh.tets, pattern);
-  const std::vector<double> matrices = random_values(TetGather::kMatrixSize * mesh.tets.size());
+  const TetGather gather(nodes_of(mesh), 4, pattern);
+  const std::vector<double> matrices = random_values(TetGather::matrix_size(4) * mesh.tets.size());
   BlockHessian H(pattern);
   gather.add_matrices(matrices, 2.0, H);
   gather.add_matrices(matrices, 1.0, H);
@@ -95,8 +101,8 @@ TEST(TetGather, AddsMatricesAsTripletsDo) {
 
 TEST(TetGather, AddsVectorsAsALoopDoes) {
   const TetMesh mesh = ascending_cube(3);
-  const TetGather gather(mesh.tets, pattern_of(mesh));
-  const std::vector<double> vectors = random_values(TetGather::kVectorSize * mesh.tets.size());
+  const TetGather gather(nodes_of(mesh), 4, pattern_of(mesh));
+  const std::vector<double> vectors = random_values(TetGather::vector_size(4) * mesh.tets.size());
   VecX g = VecX::Ones(3 * mesh.vertex_count()), expected = g;
   gather.add_vectors(vectors, -0.5, g);
   for (std::size_t j = 0; j < mesh.tets.size(); ++j)
