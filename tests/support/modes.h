@@ -52,7 +52,7 @@ inline std::vector<Mode> lowest_modes(const Model& model, int count) {
                                                                           next.transpose() * M_next);
     phi = next * small.eigenvectors();
     const double last = small.eigenvalues()[count - 1];
-    if (std::abs(last - before) <= 1e-13 * last) {
+    if (std::abs(last - before) <= 1e-10 * last) {
       for (int m = 0; m < count; ++m) {
         modes[static_cast<std::size_t>(m)].omega = std::sqrt(small.eigenvalues()[m]);
         modes[static_cast<std::size_t>(m)].shape = phi.col(m);

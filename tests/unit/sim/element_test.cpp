@@ -189,7 +189,7 @@ TEST_P(PatchTest, HomogeneousDeformationIsReproduced) {
   for (const int v : border) q.segment<3>(3 * v) = expected.segment<3>(3 * v);
   SolverSettings settings;
   settings.tolerance = 1e-12;
-  ASSERT_EQ(static_equilibrium(model, settings, q).status, StepStatus::converged);
+  ASSERT_TRUE(is_good(static_equilibrium(model, settings, q).status));
   const double worst = (q - expected).cwiseAbs().maxCoeff();
   tell("patch", {"element", "largest error of a position [m]"}, {GetParam() ? "tet10" : "tet4", told(worst)});
   EXPECT_LT(worst, 1e-13);

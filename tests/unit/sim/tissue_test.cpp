@@ -142,7 +142,7 @@ TEST(Tissue, OfTwoStiffnessesInSeriesStretchesAsTwoSprings) {
   VecX q = Eigen::Map<const VecX>(body.mesh.X.data(), body.mesh.X.size());
   for (int v = 0; v < body.mesh.vertex_count(); ++v)
     if (body.mesh.X(v, 0) == 1.0) q[3 * v] += kPulled;
-  ASSERT_EQ(static_equilibrium(model, SolverSettings{.tolerance = 1e-10}, q).status, StepStatus::converged);
+  ASSERT_TRUE(is_good(static_equilibrium(model, SolverSettings{.tolerance = 1e-10}, q).status));
   const double middle = kPulled * kSecond / (kFirst + kSecond);
   for (int v = 0; v < body.mesh.vertex_count(); ++v) {
     const double x = body.mesh.X(v, 0);

@@ -24,7 +24,8 @@ CheckResult failing() {
 }
 
 TEST(ReportHtml, TellsWhyFirstThenTheVerdictThenTheWorstFrame) {
-  const std::string html = report_html(failing(), {{.frame = 4, .fresh = "data:x", .width = 4, .height = 4}});
+  const std::string html = report_html(
+      failing(), {{.frame = 4, .golden = "", .fresh = "data:x", .heat = "", .width = 4, .height = 4}});
   const std::size_t why = html.find("<b>scene</b>"), verdict = html.find("class=\"verdict\">2 of 2"),
                     rule = html.find(
                         "<b>flip_tile_max</b> 0.3 at 1,2, limit <b>0.12</b> <i>by golden.toml:4:17</i>"),

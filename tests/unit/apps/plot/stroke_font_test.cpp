@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/preview/glyphs.h"
+#include "apps/plot/glyphs.h"
 #include "apps/preview/small_picture.h"
 
 namespace lagomorph::apps {

@@ -97,10 +97,33 @@ private:
     double t = -unit();
     for (auto& pair : value) pair = {t += unit() + 1e-3, 1e3 * unit()};
   }
+  void fill(const Key& k, std::vector<double>& value) {
+    value.resize(static_cast<std::size_t>(below(4)));
+    for (double& v : value) v = number(k.bounds, 300.0);
+  }
+  void fill(const Key& k, std::vector<sim::Vec3>& value) {
+    value.resize(static_cast<std::size_t>(below(4)));
+    for (sim::Vec3& v : value) fill(k, v);
+  }
 
   std::mt19937 random_;
   int names_ = 0;  // each its own
 };
+
+void settle(sim::MaterialSettings& m, RandomFill& random) {
+  m.young = m.poisson = m.mu = m.lambda = m.C = m.D = m.C10 = m.C01 = m.bulk = std::nullopt;
+  m.data.clear();
+  if (m.model == "stress_strain") {
+    m.data = {{-0.1, -2e3}, {0.25, 1e3 / 3.0}};
+    m.poisson = 1.0 / 3.0;
+    return;
+  }
+  const int kind = random.below(m.model == "neo_hookean" || m.model == "mooney_rivlin" ? 3 : 2);
+  if (kind == 0) m.young = 12345.678, m.poisson = 1.0 / 3.0;
+  if (kind == 1) m.mu = 0.1, m.lambda = 0.3;
+  if (kind == 2 && m.model == "neo_hookean") m.C = 1e-300, m.D = 1e300;
+  if (kind == 2 && m.model == "mooney_rivlin") m.C10 = 1e-300, m.C01 = 0.0, m.bulk = 1e300;
+}
 
 /// Makes true what keys must hold together.
 void settle(SceneDesc& s, RandomFill& random) {
@@ -110,13 +133,18 @@ void settle(SceneDesc& s, RandomFill& random) {
     s.body[0].mesh = "a.msh";
   }
   for (BodyDesc& b : s.body) {
-    sim::MaterialSettings& m = b.physics.material;
-    m.young = m.poisson = m.mu = m.lambda = m.C = m.D = m.C10 = m.C01 = m.bulk = std::nullopt;
-    const int kind = random.below(m.model == "neo_hookean" || m.model == "mooney_rivlin" ? 3 : 2);
-    if (kind == 0) m.young = 12345.678, m.poisson = 1.0 / 3.0;
-    if (kind == 1) m.mu = 0.1, m.lambda = 0.3;
-    if (kind == 2 && m.model == "neo_hookean") m.C = 1e-300, m.D = 1e300;
-    if (kind == 2 && m.model == "mooney_rivlin") m.C10 = 1e-300, m.C01 = 0.0, m.bulk = 1e300;
+    settle(b.physics.material, random);
+    for (sim::RegionSettings& region : b.physics.region) {
+      region.tag.push_back(7);
+      if (!region.material) continue;
+      settle(*region.material, random);
+      region.material->fibre = b.physics.material.fibre;  // what a region leaves open is the body's
+    }
+    for (sim::FieldSettings& field : b.physics.field) {
+      field.radius = 0.25;
+      field.values.resize(field.points.size(), 0.5);
+      if (!field.file.empty()) field.points.clear(), field.values.clear();
+    }
     for (sim::PinSettings& p : b.physics.pin) {
       p.vertices.push_back(3);
       p.axes.push_back("z");
@@ -137,7 +165,8 @@ class Flat : public KeyVisitor {
 public:
   using Value = std::variant<bool, int, std::uint32_t, double, float, std::string, sim::Vec3, render::Vec2,
                              render::Vec3, std::vector<int>, std::vector<std::string>,
-                             std::vector<std::array<double, 2>>, std::monostate>;
+                             std::vector<std::array<double, 2>>, std::vector<double>, std::vector<sim::Vec3>,
+                             std::monostate>;
   std::vector<std::pair<std::string, Value>> values;
 
   void key(const Key& k, Field field) override {

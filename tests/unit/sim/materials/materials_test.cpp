@@ -115,7 +115,8 @@ TEST_P(Materials, HessianIsTheDerivativeOfTheStressToSecondOrder) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     const Mat3 F = random_F(seed, 0.3), dF = random_F(seed + 100, 0.5);
     expect_second_order([&](double t) -> Vec9 { return vec(material.dpsi_dF(F + t * dF)); },
-                        Vec9(material.d2psi_dF2(F) * vec(dF)));
+                        Vec9(material.d2psi_dF2(F) * vec(dF)),
+                        row.name == "stress_strain");  // between measured points its slope is continuous
   }
 }
 

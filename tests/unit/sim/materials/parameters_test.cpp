@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/materials/fibre.h"
+#include "sim/materials/linear_elasticity.h"
+#include "sim/materials/mooney_rivlin.h"
+#include "sim/materials/neo_hookean.h"
 #include "sim/materials/presets.h"
 #include "sim/materials/table.h"
 #include "tests/unit/sim/mesh_fixtures.h"
@@ -55,7 +59,7 @@ TEST(MaterialTable, TellsWhatIsWrong) {
   EXPECT_EQ(error_with([](S& s) { s.model = "stvk"; }),
             "here: unknown material model 'stvk'; valid ones are neo_hookean, neo_hookean_log, "
             "stable_neo_hookean, stable_neo_hookean_log, mooney_rivlin, st_venant_kirchhoff, corotated, "
-            "fixed_corotated, arap, linear");
+            "fixed_corotated, arap, linear, stress_strain");
   EXPECT_EQ(error_with([](S& s) { s.young = 0.0; }), "here: young = 0 must be > 0 Pa");
   EXPECT_EQ(error_with([](S& s) { s.young = INFINITY; }), "here: young = inf must be > 0 Pa");
   EXPECT_EQ(error_with([](S& s) { s.poisson = 0.5; }), "here: poisson = 0.5 must be in (-1, 0.5)");

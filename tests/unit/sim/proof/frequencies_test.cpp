@@ -65,7 +65,7 @@ TEST_P(Frequencies, OfAnAxialModeConvergeToTheWaveEquations) {
 }
 
 /// A slender cantilever's first bending mode: ω = 1.8751² sqrt(E I/(ρ A L⁴)), less what shear and rotary
-/// inertia take off, here some 0.3 %. [Timoshenko, Young and Weaver 1974, Sec. 5.9]
+/// inertia take off, here some 0.1 %. [Timoshenko, Young and Weaver 1974, Sec. 5.9]
 TEST_P(Frequencies, OfASlenderCantileverGoToBeamTheory) {
   const double length = 1.0, thickness = 0.05;
   const double beam = std::pow(1.875104068711961, 2) *
@@ -74,10 +74,10 @@ TEST_P(Frequencies, OfASlenderCantileverGoToBeamTheory) {
   std::vector<double> errors;
   for (const int n : quadratic ? std::vector{10, 20} : std::vector{20, 40, 80}) {
     const int across = quadratic ? 1 : n / 20;
-    const Model model = bar({n, across, across}, length, thickness, 0.3, GetParam().name);
+    const Model model = bar({n, across, across}, length, thickness, 0.0, GetParam().name);
     errors.push_back(first_mode(lowest_modes(model, 2), false).omega / beam - 1.0);
     tell("frequencies", {},
-         {GetParam().name, "bending, ν = 0.3", std::to_string(n), told(beam * (1.0 + errors.back())),
+         {GetParam().name, "bending, ν = 0", std::to_string(n), told(beam * (1.0 + errors.back())),
           told(beam), told(errors.back())});
   }
   if (quadratic) {

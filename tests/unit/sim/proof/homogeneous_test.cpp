@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/linear_solver.h"
 #include "sim/statics.h"
 #include "tests/support/ledger.h"
 #include "tests/support/truth.h"
@@ -68,10 +69,20 @@ double force(const Model& model, const VecX& q) {
   return sum;
 }
 
+/// Whether V has a minimum there: some models lose theirs, pressed or drawn far.
+bool is_stable(const Model& model, const VecX& q) {
+  BlockHessian K(model.pattern());
+  K.set_zero();
+  for (const auto& term : model.energies()) term->add_hessian(q, 1.0, HessianKind::exact, K);
+  LinearSolver solver(1);
+  solver.analyze(model.pattern(), model.pins());
+  return solver.factorize(K) == FactorStatus::ok;
+}
+
 TEST_P(Stretched, MeetsTheClosedForm) {
   const auto truth = truth::json("6_analytic/homogeneous.json");
   double worst_side = 0.0, worst_force = 0.0;
-  int compared = 0;
+  int compared = 0, unstable = 0;
   for (const auto& set : truth.at("sets")) {
     const double young = set.at("E");
     const auto& tests = set.at("models").at(GetParam().truth_model);
@@ -80,16 +91,23 @@ TEST_P(Stretched, MeetsTheClosedForm) {
       for (const auto& row : tests.at(biaxial ? "equibiaxial_free_thickness" : "uniaxial_free_sides")) {
         const double stretch = row[0], side = row[1], stress = row[2];
         SolverSettings settings;
-        settings.tolerance = 1e-12;
+        settings.tolerance = 1e-10;
         State state = model.initial_state();
         const Points X = as_points(state.q);
-        // From the plates' motion with the sides kept halfway to where they go.
-        const Vec3 guess(stretch, biaxial ? stretch : 0.5 * (1.0 + side), 0.5 * (1.0 + side));
-        for (int v = 0; v < X.rows(); ++v)
-          state.q.segment<3>(3 * v) = X.row(v).transpose().cwiseProduct(guess);
-        const NewtonReport report = static_equilibrium(model, settings, state.q);
-        ASSERT_TRUE(is_good(report.status)) << GetParam().truth_model << " at " << stretch;
+        // From beside it, so that there is something to find.
         const Vec3 expected(stretch, biaxial ? stretch : side, side);
+        for (int v = 0; v < X.rows(); ++v)
+          state.q.segment<3>(3 * v) = X.row(v).transpose().cwiseProduct(expected);
+        if (!is_stable(model, state.q)) {
+          ++unstable;
+          continue;
+        }
+        for (int dof = 0; dof < state.q.size(); ++dof)
+          if (!model.pins().is_held(dof)) state.q[dof] += 0.002 * std::sin(static_cast<double>(dof));
+        const NewtonReport report = static_equilibrium(model, settings, state.q);
+        ASSERT_TRUE(is_good(report.status))
+            << GetParam().truth_model << " at " << stretch << (biaxial ? ", two axes: " : ": ")
+            << to_string(report.status) << " " << report.residual;
         for (int v = 0; v < X.rows(); ++v) {
           const Vec3 off = state.q.segment<3>(3 * v) - X.row(v).transpose().cwiseProduct(expected);
           worst_side = std::max(worst_side, off.cwiseAbs().maxCoeff());
@@ -99,13 +117,16 @@ TEST_P(Stretched, MeetsTheClosedForm) {
       }
     }
   }
-  EXPECT_EQ(compared, 2 * 2 * 7);
-  EXPECT_LT(worst_side, 1e-9);
-  EXPECT_LT(worst_force, 1e-9);
+  EXPECT_EQ(compared + unstable, GetParam().truth_model == "corotated" ? 27 : 28);  // one has no equilibrium
+  const bool is_neo_hookean = GetParam().truth_model != "stvk" && GetParam().truth_model != "corotated";
+  EXPECT_LE(unstable, is_neo_hookean ? 0 : 9);
+  EXPECT_LT(worst_side, 1e-12);
+  EXPECT_LT(worst_force, 1e-12);
   tell("homogeneous",
-       {"element", "model", "states", "largest error of a position [m]", "of the force / (E A)"},
-       {GetParam().element, truth::model_name(GetParam().truth_model), std::to_string(compared),
-        told(worst_side), told(worst_force)});
+       {"element", "model", "states", "of these not stable", "largest error of a position [m]",
+        "of the force / (E A)"},
+       {GetParam().element, truth::model_name(GetParam().truth_model), std::to_string(compared + unstable),
+        std::to_string(unstable), told(worst_side), told(worst_force)});
 }
 
 }  // namespace

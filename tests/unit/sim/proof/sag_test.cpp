@@ -25,9 +25,9 @@ INSTANTIATE_TEST_SUITE_P(Elements, Sag,
                          [](const auto& info) { return std::string(info.param.name); });
 
 /// δ = w L⁴/(8 E I) + w L²/(2 κ G A), w = ρ A g, κ = 10 (1 + ν)/(12 + 11 ν): Euler and Bernoulli's bending
-/// and Timoshenko's shear. [Cowper 1966]
+/// and Timoshenko's shear. [Cowper 1966] Without Poisson's effect, which a clamp would hold back.
 TEST_P(Sag, ConvergesToTimoshenko) {
-  const double length = 1.0, t = 0.05, young = 1e6, poisson = 0.3, density = 1000.0, gravity = 1e-4;
+  const double length = 1.0, t = 0.05, young = 1e6, poisson = 0.0, density = 1000.0, gravity = 1e-4;
   const double w = density * t * t * gravity, shear = young / (2.0 * (1.0 + poisson));
   const double kappa = 10.0 * (1.0 + poisson) / (12.0 + 11.0 * poisson);
   const double bending = w * std::pow(length, 4) / (8.0 * young * std::pow(t, 4) / 12.0);
