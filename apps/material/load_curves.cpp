@@ -31,8 +31,9 @@ std::optional<double> free_stretch(const sim::MaterialPoint& material, double st
     for (int k = first_free; k < 3; ++k) slope += H(8, 4 * k);
     const double step = -material.dpsi_dF(F)(2, 2) / slope;
     if (!(slope > 0.0)) return std::nullopt;  // not a stable one
-    if (std::abs(step) <= 1e-14 * free) return free;
+    const double before = free;
     free = std::max(free + step, 0.5 * free);
+    if (std::abs(step) <= 1e-11 * before) return free;  // it squares the error
   }
   return std::nullopt;
 }

@@ -53,7 +53,8 @@ TEST(Program, TellsWrongUsageAndInputByStatus2) {
       << missing.err;
   EXPECT_NE(missing.err.find("cantilever"), std::string::npos) << missing.err;
   const std::string scene = directory.write("a.toml", "[[body]]\nmesh = 'a.msh'\nyuong = 3\n").string();
-  const std::string message = scene + ":3:1: unknown key 'yuong'; did you mean 'young' of [body.material]?";
+  const std::string message =
+      scene + ":3:1: unknown key 'yuong'; did you mean 'young' of [body.material], [body.region.material]?";
   const std::string out = (directory.path() / "out").string();
   expect_error(run_program({"run", scene, "-o", out}, directory), 2, message);
   expect_error(run_program({"simulate", scene, "-o", out}, directory), 2, message);

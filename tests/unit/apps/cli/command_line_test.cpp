@@ -105,15 +105,15 @@ TEST(CommandLine, TellsWhatIsWrong) {
       {{}, "no command given; lagomorph --help lists them"},
       {{"rnu"},
        "unknown command 'rnu'; did you mean 'run'? Commands are run, simulate, render, check, approve, "
-       "preview, plot, export, compare, info, material"},
+       "preview, plot, export, compare, refine, info, material"},
       {{"publish"},
        "unknown command 'publish'; commands are run, simulate, render, check, approve, preview, plot, "
        "export, compare, "
-       "info, material"},
+       "refine, info, material"},
       {{"--quiet", "run"},
        "'--quiet' where a command is expected (run, simulate, render, check, approve, preview, plot, export, "
        "compare, "
-       "info, material); "
+       "refine, info, material); "
        "options follow "
        "the "
        "command"},

@@ -139,7 +139,7 @@ TEST_F(RunCommand, ADrivenBodyIsResumedToTheSameBytes) {
   const nlohmann::json frames = run_json("whole").at("frames");
   EXPECT_EQ(frames[0].at("pin_forces").size(), 0U);
   EXPECT_EQ(frames[1].at("pin_forces").size(), 1U);
-  EXPECT_GT(frames[1].at("work_pins"), 0.0);
+  EXPECT_NE(frames[1].at("work_pins"), 0.0);
   EXPECT_EQ(frames[3].at("pin_forces")[0][1], 0.0);  // released
 }
 

@@ -92,7 +92,7 @@ TEST(Figure, OfDecadesLeavesOutWhatIsNotPositive) {
 TEST(Figure, HasWholeTicksForNumbers) {
   Figure figure = plain();
   figure.y.whole = true;
-  figure.curves = {{"a", {0, 4}, {0, 1}}};
+  figure.curves = {{"a", {0, 40}, {0, 1}}};
   const std::string svg = svg_text(draw_figure(figure));
   EXPECT_FALSE(contains(svg, ">0.5<")) << svg;
   EXPECT_TRUE(contains(svg, ">1</text>"));

@@ -52,11 +52,14 @@ TEST(Gather, EnergyHasARowAFrameWithSeventeenDigits) {
   EXPECT_EQ(read_all(paths.energy()),
             "frame,time,kinetic,elastic,gravitational,total,mass,momentum_x,momentum_y,momentum_z,newton_"
             "iterations,"
-            "residual,steps,rejected,damping_loss\n"
+            "residual,work_pins,work_loads,pin_force_x,pin_force_y,pin_force_z,angular_momentum_x,"
+            "angular_momentum_y,angular_momentum_z,min_J,steps,rejected,damping_loss\n"
             "0,0,0.10000000000000001,0.25,-0.5,-0.15000000000000002,24,1.5,-2.5,0.33333333333333331,17,"
-            "1.0000000000000001e-09,4,2,0.125\n"
+            "1.0000000000000001e-09,0,-0.29999999999999999,4.1428571428571432,7,-3,-0.5,0.25,"
+            "0.66666666666666663,0.875,4,2,0.125\n"
             "1,0.033333333333333333,1.1000000000000001,0.25,-0.5,0.85000000000000009,24,1.5,-2.5,"
-            "0.33333333333333331,17,1.0000000000000001e-09,4,2,0.25\n");
+            "0.33333333333333331,17,1.0000000000000001e-09,0.10000000000000001,-0.59999999999999998,"
+            "4.1428571428571432,7,-3,-0.5,0.25,0.66666666666666663,0.875,4,2,0.25\n");
   EXPECT_FALSE(fs::exists(paths.newton()));
 }
 

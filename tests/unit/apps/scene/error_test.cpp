@@ -45,7 +45,8 @@ TEST(WrongScene, Keys) {
        Wrong{"[camra]\nfov = 30", "a.toml:1:2: unknown key 'camra'; did you mean 'camera'?"},
        Wrong{"fov = 30", "a.toml:1:1: unknown key 'fov'; it belongs in [camera]"},
        Wrong{"[render]\nradius = 3",
-             "a.toml:2:1: unknown key 'radius'; it belongs in [body.pin.sphere], [ground]"},
+             "a.toml:2:1: unknown key 'radius'; it belongs in [body.pin.sphere], [body.spring.sphere], "
+             "[body.load.sphere], [body.region.sphere], [[body.field]], [ground]"},
        Wrong{"[sky]\nqqqqqq = 3",
              "a.toml:2:1: unknown key 'qqqqqq'; known in [sky] are zenith, horizon, strength"},
        Wrong{"[sky]\nzzz = 3\naaa = 4",
@@ -162,8 +163,11 @@ void expect_told_of_body(std::initializer_list<Wrong> cases) {
 TEST(WrongBody, Keys) {
   expect_told_of_body(
       {Wrong{"density = -1", "a.toml:3:11: body.0.density = -1 is out of range; it must be > 0"},
-       Wrong{"yuong = 1", "a.toml:3:1: unknown key 'yuong'; did you mean 'young' of [body.material]?"},
-       Wrong{"young = 1", "a.toml:3:1: unknown key 'young'; it belongs in [body.material]"},
+       Wrong{"yuong = 1",
+             "a.toml:3:1: unknown key 'yuong'; did you mean 'young' of [body.material], "
+             "[body.region.material]?"},
+       Wrong{"young = 1",
+             "a.toml:3:1: unknown key 'young'; it belongs in [body.material], [body.region.material]"},
        Wrong{"mass = 'lump'",
              "a.toml:3:8: unknown body.0.mass 'lump'; did you mean 'lumped'? Known are consistent, lumped"},
        Wrong{"name = ''", "a.toml:3:8: body.0.name = '' must be a plain file name: it is empty"},
@@ -261,7 +265,7 @@ TEST(WrongBody, SpringsAndLoads) {
        Wrong{"[[body.load]]\ncurve = [0, 1]",
              "a.toml:4:10: body.0.load.0.curve.0 must be an array of 2 numbers, not 0"},
        Wrong{"[[body.load]]\ncurve = 3",
-             "a.toml:4:9: body.0.load.0.curve must be an array of pairs, [[time, factor], ...], not 3"}});
+             "a.toml:4:9: body.0.load.0.curve must be an array of pairs of numbers, not 3"}});
 }
 
 TEST(WrongScene, WithoutABodyIsTold) {
@@ -274,7 +278,8 @@ TEST(WrongScene, WithoutABodyIsTold) {
 
 TEST(WrongScene, OverrideIsToldByItself) {
   EXPECT_EQ(error_of(body, {"time.fps=24", "body.0.yuong=1"}),
-            "--set body.0.yuong=1: unknown key 'yuong'; did you mean 'young' of [body.material]?");
+            "--set body.0.yuong=1: unknown key 'yuong'; did you mean 'young' of [body.material], "
+            "[body.region.material]?");
   EXPECT_EQ(error_of(body, {"time.fps=fast"}),
             "--set time.fps=fast: time.fps must be a number, not the string \"fast\"");
   EXPECT_EQ(error_of(body, {"time.fps=0"}), "--set time.fps=0: time.fps = 0 is out of range; it must be > 0");

@@ -116,6 +116,7 @@ void settle(sim::MaterialSettings& m, RandomFill& random) {
   if (m.model == "stress_strain") {
     m.data = {{-0.1, -2e3}, {0.25, 1e3 / 3.0}};
     m.poisson = 1.0 / 3.0;
+    m.preset = "none";
     return;
   }
   const int kind = random.below(m.model == "neo_hookean" || m.model == "mooney_rivlin" ? 3 : 2);
@@ -224,10 +225,10 @@ TEST(SceneToToml, WritesEveryKeyButOptionalOnesThatAreNotGiven) {
            "\nlight = []\n",
            "\n[time]\nfps = 30.0  # 1/s\nframes = 150\nsubsteps = 1\nintegrator = \"backward_euler\"\n"
            "gravity = [0.0, -9.81, 0.0]  # m/s^2\n",
-           "\n[[body]]\nname = \"body0\"\nmesh = \"a.msh\"\ndensity = 1000.0  # kg/m^3\n",
+           "\n[[body]]\nname = \"body0\"\nmesh = \"a.msh\"\nelement = \"mesh\"\ndensity = 1000.0  # kg/m^3\n",
            "\nmaterial = { model = \"stable_neo_hookean\", preset = \"none\", young = 100000.0, poisson = "
            "0.3, "
-           "moduli = \"lecture\" }\n",
+           "moduli = \"lecture\", data = [] }\n",
            "\npin = []\n",
            "\n# orthographic is not given\n",
            "\n[render.raster]\nmultisample = 4\n",
