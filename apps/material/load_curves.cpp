@@ -1,5 +1,6 @@
 #include "apps/material/load_curves.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -20,20 +21,22 @@ Mat3 stretched(double stretch, double free, int first_free) {
   return s.asDiagonal();
 }
 
-/// The free stretch at which the last principal stress vanishes, by Newton's method from `guess`.
+/// The free stretch at which the last principal stress vanishes, by Newton's method from `guess`: of τ = λ P
+/// over ln λ, which turns back later than P over λ does.
 std::optional<double> free_stretch(const sim::MaterialPoint& material, double stretch, double guess,
                                    int first_free) {
+  constexpr double most = 0.5;  // of a change of ln λ
   double free = guess;
   for (int iteration = 0; iteration < 100; ++iteration) {
     const Mat3 F = stretched(stretch, free, first_free);
     const Mat9 H = material.d2psi_dF2(F);
     double slope = 0.0;  // dP_33/d free, over the diagonal entries 0, 4, 8 of vec(F)
     for (int k = first_free; k < 3; ++k) slope += H(8, 4 * k);
-    const double step = -material.dpsi_dF(F)(2, 2) / slope;
-    if (!(slope > 0.0)) return std::nullopt;  // not a stable one
-    const double before = free;
-    free = std::max(free + step, 0.5 * free);
-    if (std::abs(step) <= 1e-11 * before) return free;  // it squares the error
+    const double P = material.dpsi_dF(F)(2, 2), tau_slope = P + free * slope;
+    if (!(tau_slope > 0.0)) return std::nullopt;  // not a stable one
+    const double step = std::clamp(-P / tau_slope, -most, most);
+    free *= std::exp(step);
+    if (std::abs(step) <= 1e-11) return free;  // it squares the error
   }
   return std::nullopt;
 }
@@ -50,13 +53,18 @@ LoadPoint with_free_sides(const sim::MaterialPoint& material, const ClosedForm& 
 /// Stretches of 0.6 to 2, from rest to both ends.
 std::vector<LoadPoint> points_with_free_sides(const sim::MaterialPoint& material, const ClosedForm& closed,
                                               int first_free) {
-  constexpr int below = 8, above = 20;  // steps of 0.05
+  constexpr int below = 8, above = 20, parts = 10;  // steps of 0.05, each in parts
   std::vector<LoadPoint> points(below + 1 + above);
   for (const int direction : {-1, 1}) {
     double guess = 1.0;
-    for (int i = 0; i <= (direction < 0 ? below : above); ++i)
-      points[static_cast<std::size_t>(below + direction * i)] =
-          with_free_sides(material, closed, 1.0 + 0.05 * direction * i, guess, first_free);
+    for (int i = 0; i <= (direction < 0 ? below : above); ++i) {
+      // In small steps, since a root may have a fold beside it.
+      for (int k = i == 0 ? parts : 1; k <= parts; ++k) {
+        const double steps = i == 0 ? 0.0 : i - 1 + static_cast<double>(k) / parts;
+        points[static_cast<std::size_t>(below + direction * i)] =
+            with_free_sides(material, closed, 1.0 + 0.05 * direction * steps, guess, first_free);
+      }
+    }
   }
   return points;
 }
