@@ -118,7 +118,7 @@ TEST(MaterialCommand, ReproducesMeasuredDataUnderUniaxialLoad) {
   sim::MaterialSettings settings;
   settings.model = "stress_strain";
   settings.poisson = 0.45;
-  settings.data = {{-0.25, -3e3}, {0.2, 2e3}, {0.5, 9e3}, {0.9, 4e4}};
+  settings.data = {{-0.25, -6e3}, {0.2, 2e3}, {0.5, 9e3}, {0.9, 4e4}};
   const auto point = sim::make_material_point(settings, "test");
   const std::vector<LoadCurve> curves = load_curves(*point, closed_form(settings));
   int met = 0;
