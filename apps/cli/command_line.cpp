@@ -15,6 +15,8 @@
 #include "apps/nearest.h"
 #include "apps/version.h"
 #include "render/renderer.h"
+#include "sim/integrator.h"
+#include "sim/materials/table.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -338,6 +340,29 @@ std::string option_line(std::string flags, const char* value, const char* meanin
   return fmt::format("  {:<18}{}\n", value != nullptr ? flags + " " + value : flags, meaning);
 }
 
+/// "label a, b, c", over as many lines as it takes.
+std::string list_lines(std::string line, const std::vector<std::string>& names) {
+  constexpr std::size_t width = 98;
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string word = names[i] + (i + 1 < names.size() ? "," : "");
+    if (line.size() + 1 + word.size() > width) {
+      text += line + "\n";
+      line = " ";
+    }
+    line += " " + word;
+  }
+  return text + line + "\n";
+}
+
+/// What the program knows by name, where a command takes it.
+std::string known_names(std::string_view command) {
+  if (command == "material") return "\n" + list_lines("Models:", sim::material_names());
+  if (command != "run" && command != "simulate") return "";
+  return "\n" + list_lines("Integrators, time.integrator:", sim::integrator_names()) +
+         list_lines("Materials, body.N.material.model:", sim::material_names());
+}
+
 std::string command_help(const CommandRow& command) {
   std::string text = fmt::format("Usage: {}\n{}.\n\nOptions:\n", usage(command), command.meaning);
   text[text.find('\n') + 1] = static_cast<char>(std::toupper(command.meaning[0]));
@@ -346,7 +371,7 @@ std::string command_help(const CommandRow& command) {
   }
   text += option_line("--help", nullptr, "this text");
   text += option_line("--version", nullptr, "the program's version");
-  return text + fmt::format("\nExample: {}\n{}", command.example, statuses);
+  return text + known_names(command.name) + fmt::format("\nExample: {}\n{}", command.example, statuses);
 }
 
 const CommandRow& find_command(const std::string& name) {

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "apps/scene/keys.h"
+
+/// Keys of a body's physics: what it is made of, and what holds and drives it.
+namespace lagomorph::apps {
+
+void visit_material(sim::MaterialSettings&, KeyVisitor&);
+void visit_damping(sim::DampingSettings&, KeyVisitor&);
+void visit_region(sim::RegionSettings&, KeyVisitor&);
+void visit_field(sim::FieldSettings&, KeyVisitor&);
+
+void visit_sphere_and_plane(std::optional<sim::SphereSelector>&, std::optional<sim::PlaneSelector>&,
+                            KeyVisitor&);
+void visit_pin(sim::PinSettings&, KeyVisitor&);
+void visit_spring(sim::SpringSettings&, KeyVisitor&);
+void visit_load(sim::LoadSettings&, KeyVisitor&);
+
+}  // namespace lagomorph::apps
