@@ -8,7 +8,7 @@ trap 'rm -rf "$work"' EXIT
 size=(--set render.width=320 --set render.height=240 --set time.frames=9 --quiet)
 "$program" run "$root/tests/data/run/bar.toml" "${size[@]}" -o "$work/good"
 "$program" approve "$work/good" "$work/golden" --quiet
-"$program" run "$root/tests/data/run/bar.toml" "${size[@]}" --set body.0.young=2e3 -o "$work/bad"
+"$program" run "$root/tests/data/run/bar.toml" "${size[@]}" --set body.0.material.young=2e3 -o "$work/bad"
 status=0
 "$program" check "$work/bad" "$work/golden" --quiet || status=$?
 [ "$status" = 1 ] || fail "check ended with $status, not 1"
