@@ -77,14 +77,15 @@ public:
   }
   /// Likewise over a tet: a quarter for each corner; of a quadratic one -1/20, and 1/5 for each midside node.
   /// f [N/m^3].
-  bool add_body_force(const Vec3& density_of_force) {
+  template <class ForceDensity>
+  bool add_body_force(const ForceDensity& force_density) {  // [N/m^3], by the body's tet
     bool any = false;
     const VecX X = Eigen::Map<const VecX>(mesh_.X.data(), mesh_.X.size());
     for (int j = body_.tets.begin; j < body_.tets.end; ++j) {
       const Tet& tet = mesh_.tets[static_cast<std::size_t>(j)];
       if (!all_marked(tet)) continue;
       any = true;
-      const Vec3 whole = tet_volume(gather_corners(X, tet)) * density_of_force;
+      const Vec3 whole = tet_volume(gather_corners(X, tet)) * force_density(j - body_.tets.begin);
       const bool is_quadratic = mesh_.is_quadratic(static_cast<std::size_t>(j));
       for (const int v : tet) at(v) += (is_quadratic ? -0.05 : 0.25) * whole;
       if (!is_quadratic) continue;
@@ -112,7 +113,7 @@ private:
 
 }  // namespace
 
-void Loads::append(const TetMesh& mesh, const Body& body, const BodySettings& settings,
+void Loads::append(const TetMesh& mesh, const Body& body, const BodySettings& settings, const BodyMass& mass,
                    const std::string& where) {
   vertex_count_ = mesh.vertex_count();
   const Points X = mesh.X.middleRows(body.vertices.begin, body.vertices.size());
@@ -125,8 +126,11 @@ void Loads::append(const TetMesh& mesh, const Body& body, const BodySettings& se
     const bool on_surface = !load.traction.isZero(0.0) || load.pressure != 0.0;
     if (on_surface && !assembly.add_traction(load.traction, load.pressure))
       throw InputError(place + ": traction and pressure need a boundary triangle with all corners selected");
-    const Vec3 in_bulk = load.body_force + settings.density * load.acceleration;
-    if (!in_bulk.isZero(0.0) && !assembly.add_body_force(in_bulk))
+    const bool in_bulk = !load.body_force.isZero(0.0) || !load.acceleration.isZero(0.0);
+    const auto force_density = [&](int tet) -> Vec3 {
+      return load.body_force + density_of(mass, tet) * load.acceleration;
+    };
+    if (in_bulk && !assembly.add_body_force(force_density))
       throw InputError(place + ": body_force and acceleration need a tet with all corners selected");
     loads_.push_back({std::move(assembly.f), body.vertices.begin, load.curve});
   }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/mass.h"
 #include "sim/settings.h"
 #include "sim/tet_mesh.h"
 #include "sim/types.h"
@@ -17,7 +18,7 @@ double curve_at(const std::vector<std::array<double, 2>>& curve, double t);
 class Loads {
 public:
   /// Adds those of a body of the mesh. Throws InputError, prefixed by `where`.
-  void append(const TetMesh&, const Body&, const BodySettings&, const std::string& where);
+  void append(const TetMesh&, const Body&, const BodySettings&, const BodyMass&, const std::string& where);
   bool is_empty() const { return loads_.empty(); }
   /// f(t), 3n; empty when there are no loads. [N]
   VecX force(double t) const;

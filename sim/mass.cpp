@@ -16,10 +16,6 @@ Eigen::Matrix4d corner_masses(double density, double volume, bool lumped) {
   return mass / 20.0 * (Eigen::Matrix4d::Ones() + Eigen::Matrix4d::Identity());
 }
 
-double density_of(const BodyMass& body, int tet) {
-  return body.densities.empty() ? body.density : body.densities[static_cast<std::size_t>(tet)];
-}
-
 Mat12 times_identity(const Eigen::Matrix4d& m) {
   Mat12 M = Mat12::Zero();
   for (int r = 0; r < 4; ++r)
@@ -51,6 +47,10 @@ void add_masses(std::span<const int> nodes, const Matrix& m, const BlockPattern&
 }
 
 }  // namespace
+
+double density_of(const BodyMass& body, int tet) {
+  return body.densities.empty() ? body.density : body.densities[static_cast<std::size_t>(tet)];
+}
 
 Eigen::Matrix<double, 10, 10> quadratic_masses(double density, double volume) {
   return Eigen::Matrix<double, 10, 10>::NullaryExpr([&](Eigen::Index r, Eigen::Index s) {

@@ -26,6 +26,9 @@ struct BodyMass {
   std::vector<double> densities = {};  // of each tet; empty: `density`
 };
 
+/// Of a tet, in the body's numbers. [kg/m^3]
+double density_of(const BodyMass&, int tet);
+
 /// M = Σ_j E_jᵀ M_j E_j. Each of its 3×3 blocks is a multiple of I: the multiples, in the pattern's order.
 /// [kg]
 VecX assemble_mass(const TetMesh&, const std::vector<BodyMass>& bodies, const BlockPattern&);

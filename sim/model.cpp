@@ -182,7 +182,7 @@ Model::Model(std::vector<BodyInput> bodies, const Vec3& gravity) {
         start_velocities(bodies[b].settings, X, bodies[b].velocities, mass.segment(first, count), where);
     qdot0_.segment(3 * first, 3 * count) = Eigen::Map<const VecX>(v.data(), v.size());
     set_start(bodies[b].settings, body.vertices, mesh_.X, pins(), where, q0_);
-    loads_.append(mesh_, body, bodies[b].settings, where);
+    loads_.append(mesh_, body, bodies[b].settings, masses[b], where);
   }
   pins().clear_pinned(qdot0_);
   held_.front().set_velocities(0.0, qdot0_);

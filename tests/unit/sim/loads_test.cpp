@@ -85,6 +85,22 @@ TEST(Loads, OfTheBulkGoByVolumeAndMass) {
   EXPECT_LT((total(force_of(load)) - 500.0 / 3 * Vec3(1, 2, 0)).norm(), 1e-10);
 }
 
+/// Where the density varies too.
+TEST(Loads, OfAccelerationAreThoseOfGravity) {
+  const auto cube = [](const Vec3& acceleration) {
+    BodyInput body{cube_mesh(2), {}};
+    RegionSettings light;
+    light.box = BoxSelector{Vec3::Zero(), Vec3(0.5, 1, 1)};
+    light.density = 100.0;
+    body.settings.region.push_back(light);
+    body.settings.load.emplace_back().acceleration = acceleration;
+    return body;
+  };
+  const Vec3 g(1, -2, 3);
+  const VecX loads = Model({cube(g)}, Vec3::Zero()).load_force(0.0);
+  EXPECT_LT((loads - Model({cube(Vec3::Zero())}, g).gravity_force()).norm(), 1e-10);
+}
+
 TEST(Loads, OfTwoBodiesAreEachOnItsOwn) {
   BodyInput a{cube_mesh(1), {}}, b{cube_mesh(1), {}};
   b.settings.translate = Vec3(3, 0, 0);
