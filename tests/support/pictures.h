@@ -9,12 +9,13 @@
 #include <vector>
 
 #include "render/png_read.h"
+#include "tests/support/paths.h"
 
 /// Pictures for comparing: those of tests/data/flip, and noise.
 namespace lagomorph::render::tests {
 
 inline std::string flip_path(const std::string& name) {
-  return std::string(LAGOMORPH_SOURCE_DIR) + "/tests/data/flip/" + name;
+  return lagomorph::tests::source_dir().string() + "/tests/data/flip/" + name;
 }
 
 inline std::string file_bytes(const std::string& path) {

@@ -20,6 +20,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/support/paths.h"
 #include "tests/support/temporary_directory.h"
 
 /// Drives the built program as a script would.
@@ -51,7 +52,7 @@ public:
   explicit Program(const std::vector<std::string>& arguments, const ProgramOptions& options = {}) {
     char name[] = "/tmp/lagomorph_output_XXXXXX";
     folder_ = ::mkdtemp(name);
-    std::vector<std::string> command = {LAGOMORPH_PROGRAM};
+    std::vector<std::string> command = {lagomorph::tests::program().string()};
     command.insert(command.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& argument : command) argv.push_back(argument.data());

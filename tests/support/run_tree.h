@@ -7,12 +7,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/paths.h"
 #include "tests/support/program.h"
 
 namespace lagomorph::tests {
 
 inline std::filesystem::path data_file(const std::string& name) {
-  return std::filesystem::path(LAGOMORPH_SOURCE_DIR) / "tests" / "data" / name;
+  return lagomorph::tests::source_dir() / "tests" / "data" / name;
 }
 
 /// Every file of a folder by its relative path, as two runs of the same scene have them: without the seconds

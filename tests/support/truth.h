@@ -10,12 +10,13 @@
 
 #include "sim/mesh_io.h"
 #include "sim/model.h"
+#include "tests/support/paths.h"
 
 /// Reference solutions under tests/data/truth, computed independently of this code; see the README there.
 namespace lagomorph::sim::truth {
 
 inline std::filesystem::path path(const std::string& name) {
-  return std::filesystem::path(LAGOMORPH_SOURCE_DIR) / "tests" / "data" / "truth" / name;
+  return lagomorph::tests::source_dir() / "tests" / "data" / "truth" / name;
 }
 
 inline nlohmann::json json(const std::string& name) {

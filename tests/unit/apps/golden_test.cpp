@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/check_fixture.h"
+#include "tests/support/paths.h"
 
 /// `lagomorph check` of the project's own goldens: pictures of committed states (tests/golden/states) against
 /// committed pictures (tests/golden/<case>), so that physics cannot move them.
@@ -13,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path goldens = fs::path(LAGOMORPH_SOURCE_DIR) / "tests/golden";
+const fs::path goldens = lagomorph::tests::source_dir() / "tests/golden";
 
 class Golden : public testing::TestWithParam<std::string> {
 protected:

@@ -10,12 +10,13 @@
 #include "sim/mesh_check.h"
 #include "sim/mesh_io.h"
 #include "sim/surface.h"
+#include "tests/support/paths.h"
 
 namespace lagomorph::sim {
 namespace {
 
 std::filesystem::path asset(const std::string& name) {
-  return std::filesystem::path(LAGOMORPH_SOURCE_DIR) / "assets" / "meshes" / name;
+  return lagomorph::tests::source_dir() / "assets" / "meshes" / name;
 }
 
 TEST(Assets, TheBunnySurfaceIsClosedOutwardAndOneMetreTall) {
@@ -81,8 +82,8 @@ INSTANTIATE_TEST_SUITE_P(Meshes, AssetsTetBunny,
 TEST(Assets, TheBarIsTheReferenceSolutions) {
   Remarks remarks;
   const TetMesh bar = read_tet_mesh(asset("bar.msh"), remarks);
-  const TetMesh truth = read_tet_mesh(
-      std::filesystem::path(LAGOMORPH_SOURCE_DIR) / "tests" / "data" / "truth" / "bar.msh", remarks);
+  const TetMesh truth =
+      read_tet_mesh(lagomorph::tests::source_dir() / "tests" / "data" / "truth" / "bar.msh", remarks);
   EXPECT_EQ(bar.X, truth.X);
   EXPECT_EQ(bar.tets, truth.tets);
   EXPECT_EQ(bar.tags, truth.tags);

@@ -10,6 +10,7 @@
 
 #include "sim/parallel.h"
 #include "tests/support/ledger.h"
+#include "tests/support/paths.h"
 #include "tests/support/truth.h"
 #include "tests/unit/sim/mesh_fixtures.h"
 #include "tests/unit/sim/motion.h"
@@ -462,9 +463,7 @@ TEST_P(Each, GivesTheSameBytesForAnyNumberOfThreads) {
   const auto run_with = [&](int threads) {
     const ThreadLimit limit(threads);
     Remarks remarks;
-    BodyInput body{
-        read_tet_mesh(std::filesystem::path(LAGOMORPH_SOURCE_DIR) / "assets/meshes/bunny_5k.msh", remarks),
-        {}};
+    BodyInput body{read_tet_mesh(lagomorph::tests::source_dir() / "assets/meshes/bunny_5k.msh", remarks), {}};
     body.settings.pin.emplace_back().top = 0.1;
     Motion run(Model({body}, kGravity), GetParam(), 30.0, 1e-6);
     run.advance(2);

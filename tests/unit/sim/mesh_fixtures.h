@@ -14,12 +14,13 @@
 #include "sim/io/formats.h"
 #include "sim/mesh_io.h"
 #include "sim/tet_mesh.h"
+#include "tests/support/paths.h"
 
 /// Small meshes and files for the tests of what reads, checks and carries them.
 namespace lagomorph::sim {
 
 inline std::filesystem::path data_path(const std::string& name) {
-  return std::filesystem::path(LAGOMORPH_SOURCE_DIR) / "tests" / "data" / name;
+  return lagomorph::tests::source_dir() / "tests" / "data" / name;
 }
 
 /// A folder of the test's own that goes with it.

@@ -1,4 +1,5 @@
 #include "tests/support/check_fixture.h"
+#include "tests/support/paths.h"
 
 /// `lagomorph check --calibrate` of pictures of the committed states.
 namespace lagomorph::tests {
@@ -11,7 +12,7 @@ protected:
   /// Frame 2 of the committed states, small.
   void draw(const std::string& backend, const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments = {
-        "render",          std::string(LAGOMORPH_SOURCE_DIR) + "/tests/golden/states",
+        "render",          lagomorph::tests::source_dir().string() + "/tests/golden/states",
         "--backend",       backend,
         "--frames",        "2",
         "--out",           at("run").string(),

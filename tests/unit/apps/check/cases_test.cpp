@@ -1,4 +1,5 @@
 #include "tests/support/check_fixture.h"
+#include "tests/support/paths.h"
 
 /// The list of cases that tell a check's worth: what nobody sees passes by the defaults, what one looks for
 /// fails.
@@ -20,7 +21,7 @@ std::vector<Case> cases() {
   const std::string spheres = flip_file("spheres_ref.png");
   const auto with = [&](const auto& change) { return changed_png("spheres_ref.png", change); };
   const std::string bunny_file =
-      std::string(LAGOMORPH_SOURCE_DIR) + "/tests/golden/bunny_path/frames/frame_0002.png";
+      lagomorph::tests::source_dir().string() + "/tests/golden/bunny_path/frames/frame_0002.png";
   const std::string bunny = read_all(bunny_file);
   const auto of_bunny = [&](const auto& change) { return changed(bunny, change); };
   return {

@@ -4,6 +4,7 @@
 
 #include "apps/npy.h"
 #include "tests/support/check_fixture.h"
+#include "tests/support/paths.h"
 
 /// The preset mc of `lagomorph check`, on pictures that are path-traced from the committed states.
 namespace lagomorph::tests {
@@ -16,7 +17,7 @@ protected:
   /// Frame 2 of the committed states, small, with statistics.
   void draw(const std::string& name, int samples, int seed, std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments = {
-        "render",    std::string(LAGOMORPH_SOURCE_DIR) + "/tests/golden/states",
+        "render",    lagomorph::tests::source_dir().string() + "/tests/golden/states",
         "--backend", "path",
         "--frames",  "2",
         "--out",     at(name).string(),

@@ -6,6 +6,7 @@
 #include "apps/npy.h"
 #include "render/png_read.h"
 #include "tests/support/check_fixture.h"
+#include "tests/support/paths.h"
 
 /// `lagomorph compare A.npy B.npy`.
 namespace lagomorph::tests {
@@ -66,9 +67,9 @@ TEST_F(CompareFloats, InfiniteDepthsAreEqualOrNot) {
 TEST_F(CompareFloats, TheRendererLeavesLinearLight) {
   const auto draw = [&](const std::string& name, const std::string& set) {
     const Ended ended =
-        run_program({"render", std::string(LAGOMORPH_SOURCE_DIR) + "/tests/golden/states", "--frames", "2",
-                     "--out", at(name).string(), "--quiet", "--backend", "path", "--set", "render.width=64",
-                     "--set", "render.height=36", "--set", "render.samples=8", "--set",
+        run_program({"render", lagomorph::tests::source_dir().string() + "/tests/golden/states", "--frames",
+                     "2", "--out", at(name).string(), "--quiet", "--backend", "path", "--set",
+                     "render.width=64", "--set", "render.height=36", "--set", "render.samples=8", "--set",
                      "render.channels=[\"color\"]", "--set", set});
     EXPECT_EQ(ended.status, 0) << ended.err;
     return (at(name) / "aov/color/frame_0002.npy").string();

@@ -12,6 +12,7 @@
 #include "apps/material/load_curves.h"
 #include "sim/materials/presets.h"
 #include "sim/materials/table.h"
+#include "tests/support/paths.h"
 #include "tests/support/program.h"
 
 namespace lagomorph::apps {
@@ -21,8 +22,7 @@ using tests::Ended;
 using tests::TemporaryDirectory;
 
 nlohmann::json truth(const char* name) {
-  return nlohmann::json::parse(
-      tests::read_all(std::filesystem::path(LAGOMORPH_SOURCE_DIR) / "tests/data/truth" / name));
+  return nlohmann::json::parse(tests::read_all(lagomorph::tests::source_dir() / "tests/data/truth" / name));
 }
 
 Ended material(std::vector<std::string> arguments, const std::filesystem::path& directory = {}) {
@@ -139,7 +139,7 @@ TEST(Presets, StandInTheReadme) {
   for (const sim::Preset& p : sim::presets())
     table += fmt::format("| `{}` | {:g} | {:g} | {:g} | {} | {} |\n", p.name, p.young, p.poisson, p.density,
                          p.what, p.source);
-  const std::string readme = tests::read_all(LAGOMORPH_SOURCE_DIR "/README.md");
+  const std::string readme = tests::read_all(lagomorph::tests::source_dir() / "README.md");
   EXPECT_NE(readme.find("<!-- presets -->\n" + table + "<!-- /presets -->"), std::string::npos) << table;
 }
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "render/png_read.h"
+#include "tests/support/paths.h"
 #include "tests/unit/apps/pipeline/run_fixture.h"
 
 /// The same states drawn by both back ends: what one sees where, the other sees there.
@@ -51,7 +52,7 @@ protected:
   /// Draws frame 4 of the golden states by one back end.
   fs::path draw(const std::string& backend, const Arguments& more) const {
     const fs::path run = at(backend);
-    expect(0, Arguments{"render", (fs::path(LAGOMORPH_SOURCE_DIR) / "tests/golden/states").string(),
+    expect(0, Arguments{"render", (lagomorph::tests::source_dir() / "tests/golden/states").string(),
                         "--frames", "4", "--backend", backend, "--set", "render.channels=[\"depth\"]",
                         "--quiet", "-o", run.string()} +
                   more);

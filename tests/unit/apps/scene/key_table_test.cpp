@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/scene/scene.h"
+#include "tests/support/paths.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -26,7 +27,7 @@ TEST(KeyTable, HasARowAKey) {
 }
 
 TEST(KeyTable, StandsInTheReadme) {
-  std::ifstream file(LAGOMORPH_SOURCE_DIR "/README.md");
+  std::ifstream file(lagomorph::tests::source_dir() / "README.md");
   if (!file) GTEST_SKIP() << "there is no README.md";
   std::stringstream text;
   text << file.rdbuf();
