@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -21,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view temporary_suffix = ".tmp";
+constexpr std::size_t stream_buffer = std::size_t{1} << 20;  // [bytes]
 
 /// A path that cannot be what it should is wrong input; everything else is the machine's.
 [[noreturn]] void fail(const fs::path& path, const char* what, int error) {
@@ -39,15 +41,9 @@ public:
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   int get() const { return fd_; }
-  /// 0 or -1; some file systems report a failed write only here.
-  int close() {
-    const int result = ::close(fd_);
-    fd_ = -1;
-    return result;
-  }
 
 private:
-  int fd_;
+  const int fd_;
 };
 
 int write_all(int fd, std::string_view bytes) {
@@ -118,18 +114,52 @@ std::string read_file(const fs::path& path) {
   }
 }
 
-void write_file(const fs::path& path, std::string_view bytes, Durable durable) {
-  const fs::path temporary = temporary_name(path);
-  Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
-  if (file.get() < 0) fail(path, "cannot be written", errno);
-  if (write_all(file.get(), bytes) != 0 || (durable == Durable::yes && ::fsync(file.get()) != 0) ||
-      file.close() != 0) {
-    const int error = errno;
-    ::unlink(temporary.c_str());
-    fail(path, "cannot be written", error);
+FileStream::FileStream(fs::path path) : path_(std::move(path)), temporary_(temporary_name(path_)) {
+  fd_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (fd_ < 0) fail(path_, "cannot be written", errno);
+}
+
+FileStream::~FileStream() {
+  if (fd_ < 0) return;
+  ::close(fd_);
+  ::unlink(temporary_.c_str());
+}
+
+void FileStream::write(std::string_view bytes) {
+  size_ += bytes.size();
+  if (buffer_.size() + bytes.size() <= stream_buffer) {
+    buffer_ += bytes;
+    return;
   }
-  rename_into_place(temporary, path);
-  if (durable == Durable::yes) sync_folder_of(path);
+  flush();
+  if (write_all(fd_, bytes) != 0) give_up();
+}
+
+void FileStream::flush() {
+  if (write_all(fd_, buffer_) != 0) give_up();
+  buffer_.clear();
+}
+
+void FileStream::finish(Durable durable) {
+  flush();
+  if (durable == Durable::yes && ::fsync(fd_) != 0) give_up();
+  const int closed = ::close(fd_);  // some file systems report a failed write only here
+  fd_ = -1;
+  if (closed != 0) give_up();
+  rename_into_place(temporary_, path_);
+  if (durable == Durable::yes) sync_folder_of(path_);
+}
+
+void FileStream::give_up() {
+  const int error = errno;
+  ::unlink(temporary_.c_str());
+  fail(path_, "cannot be written", error);
+}
+
+void write_file(const fs::path& path, std::string_view bytes, Durable durable) {
+  FileStream file(path);
+  file.write(bytes);
+  file.finish(durable);
 }
 
 bool write_file_if_changed(const fs::path& path, std::string_view bytes, Durable durable) {

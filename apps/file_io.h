@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -24,6 +25,33 @@ enum class Durable { no, yes };
 void write_file(const std::filesystem::path&, std::string_view bytes, Durable = Durable::no);
 /// The same, when the file is not there with these bytes already. Returns whether it was written.
 bool write_file_if_changed(const std::filesystem::path&, std::string_view bytes, Durable = Durable::no);
+
+/// A file written piece by piece, held in memory a megabyte at a time. It stands in its place only once it is
+/// finished; one that is not leaves what was there and no temporary file.
+class FileStream {
+public:
+  /// Throws as write_file does.
+  explicit FileStream(std::filesystem::path);
+  ~FileStream();
+  FileStream(const FileStream&) = delete;
+  FileStream& operator=(const FileStream&) = delete;
+
+  void write(std::string_view bytes);
+  /// Bytes written so far.
+  std::uint64_t size() const { return size_; }
+  /// Renames the file into its place.
+  void finish(Durable = Durable::no);
+
+private:
+  void flush();
+  [[noreturn]] void give_up();
+
+  std::filesystem::path path_, temporary_;
+  int fd_ = -1;
+  std::string buffer_;
+  std::uint64_t size_ = 0;
+};
+
 /// Another name for the same file, a copy where the file system has no hard links. Replaces what is there.
 void link_file(const std::filesystem::path& from, const std::filesystem::path& to);
 

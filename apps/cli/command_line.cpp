@@ -269,9 +269,10 @@ constexpr OptionRow option_rows[] = {
      [](Options& o, const std::string& v) {
        o.format = one_of(v, "--format", {"svg", "png"});
      }},
-    {"--format", "NAME", " export ", "vtu, ply or obj; by default vtu",
+    {"--format", "NAME", " export ",
+     "a file a frame: vtu, ply, obj; one of the whole motion: gltf (.glb), usda; by default vtu",
      [](Options& o, const std::string& v) {
-       o.format = one_of(v, "--format", {"vtu", "ply", "obj"});
+       o.format = one_of(v, "--format", {"vtu", "ply", "obj", "gltf", "usda"});
      }},
     {"--fields", "A,B,...", " export ",
      "von_mises, J, energy_density, displacement, stiffness, body; by default all in vtu",

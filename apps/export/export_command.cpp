@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -7,7 +8,7 @@
 
 #include "apps/cli/print.h"
 #include "apps/commands.h"
-#include "apps/export/frame_formats.h"
+#include "apps/export/formats.h"
 #include "apps/file_io.h"
 #include "apps/pipeline/build_scene.h"
 #include "apps/pipeline/production.h"
@@ -37,9 +38,9 @@ RunInfo info_of(const RunPaths& run) {
 }
 
 /// Those asked for, or what the format gives.
-std::vector<std::string> fields_for(const Options& options, const FrameFormat& format) {
+std::vector<std::string> fields_for(const Options& options, const ExportFormat& format) {
   if (!options.fields.empty() && !format.takes_fields)
-    wrong_input(fmt::format("--fields: .{} holds no fields; vtu and ply do", format.name));
+    wrong_input(fmt::format("--fields: .{} holds no fields; vtu, ply and usda do", format.name));
   for (const std::string& name : options.fields) sim::find_field(name);
   std::vector<std::string> names = options.fields;
   if (names.empty() && format.all_fields) {
@@ -58,6 +59,23 @@ std::string collection(const std::vector<std::pair<double, std::string>>& files)
   return text + "</Collection>\n</VTKFile>\n";
 }
 
+/// A file a frame, and for vtu the list of their times. False: asked to stop.
+bool write_frames(const ExportedSequence& sequence, const ExportFormat& format, const fs::path& out,
+                  std::vector<std::string>& files) {
+  make_folder(out);
+  std::vector<std::pair<double, std::string>> times;
+  sequence.begin(1);
+  const bool all = sequence.each([&](const sim::State& state) {
+    files.push_back(frame_file(state.frame, format.extension));
+    times.emplace_back(state.t, files.back());
+    write_file(out / files.back(), format.frame(sequence.scene, state));
+  });
+  if (!all || std::string_view(format.name) != "vtu") return all;
+  files.push_back(sequence.scene.desc.name + ".pvd");
+  write_file(out / files.back(), collection(times));
+  return true;
+}
+
 }  // namespace
 
 ExitStatus export_command(const Options& options) {
@@ -65,7 +83,7 @@ ExitStatus export_command(const Options& options) {
   Progress progress(options.quiet || options.json);
   const sim::ThreadLimit limit(thread_count(options));
   const RunPaths run(options.inputs.at(0));
-  const FrameFormat& format = find_format(options.format.value_or("vtu"));
+  const ExportFormat& format = find_format(options.format.value_or("vtu"));
   const std::vector<std::string> fields = fields_for(options, format);
   const RunInfo info = info_of(run);
   const SceneDesc scene = load_scene(run.scene(), {});
@@ -73,36 +91,39 @@ ExitStatus export_command(const Options& options) {
   const FrameRange frames = options.frames ? wanted_frames(options.frames, scene.time.frames) : states.all();
   states.require(frames);
   const sim::Model model = build_model(scene, progress);
-  const ExportedScene exported{model, build_surfaces(scene, model, progress), fields};
+  const ExportedScene exported{scene, model, build_surfaces(scene, model, progress), fields};
   const fs::path out = options.out.value_or(run.root() / "export");
-  make_folder(out);
   remove_leftovers(out);
+  const ExportedSequence sequence{
+      exported,
+      frames,
+      [&](int frame) {
+        const fs::path file = run.state(frame);
+        return decode_state(read_file(file), file.string(), frame, scene.time.fps,
+                            model.mesh().vertex_count());
+      },
+      stop_asked,
+      [&] { progress.frame_done(); },
+      [&](int passes) { progress.begin(passes * (frames.last - frames.first + 1)); }};
 
-  std::vector<std::pair<double, std::string>> files;  // by their times
-  progress.begin(frames.last - frames.first + 1);
-  for (int frame = frames.first; frame <= frames.last && !stop_asked(); ++frame) {
-    const fs::path file = run.state(frame);
-    const sim::State state =
-        decode_state(read_file(file), file.string(), frame, scene.time.fps, model.mesh().vertex_count());
-    files.emplace_back(state.t, frame_file(frame, fmt::format(".{}", format.name)));
-    write_file(out / files.back().second, format.bytes(exported, state));
-    progress.frame_done();
+  std::vector<std::string> files;
+  if (format.sequence != nullptr) {
+    files.push_back(scene.name + format.extension);
+    if (!format.sequence(sequence, out / files.back())) return stop_status();
+  } else if (!write_frames(sequence, format, out, files)) {
+    return stop_status();
   }
   progress.end();
-  if (stop_asked()) return stop_status();
-  const std::string list = std::string(format.name) == "vtu" ? scene.name + ".pvd" : "";
-  if (!list.empty()) write_file(out / list, collection(files));
   if (options.json) {
     nlohmann::ordered_json json = {{"out", out.string()},
                                    {"format", format.name},
                                    {"frames", {frames.first, frames.last}},
                                    {"fields", fields},
-                                   {"files", nlohmann::ordered_json::array()}};
-    for (const auto& [time, file] : files) json["files"].push_back(file);
-    if (!list.empty()) json["files"].push_back(list);
+                                   {"files", files}};
     print(json.dump() + "\n");
   } else if (!options.quiet) {
-    print(fmt::format("{} frames as .{} in {}\n", files.size(), format.name, out.string()));
+    print(fmt::format("{} frames as {} in {}\n", sequence.count(), format.extension,
+                      format.sequence != nullptr ? (out / files.back()).string() : out.string()));
   }
   return ExitStatus::done;
 }

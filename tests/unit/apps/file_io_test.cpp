@@ -123,6 +123,48 @@ TEST(FileIo, AWriteThatFailsLeavesTheOldFileAndNoOther) {
   EXPECT_EQ(files_in(dir.path()), 1);
 }
 
+TEST(FileIo, AStreamStandsInItsPlaceOnlyOnceFinished) {
+  const TemporaryDirectory dir;
+  const fs::path file = dir.write("a", "old");
+  const std::string large(3 << 20, 'x');
+  {
+    FileStream stream(file);
+    stream.write("small ");
+    stream.write(large);
+    stream.write(" end");
+    EXPECT_EQ(stream.size(), large.size() + 10);
+    EXPECT_EQ(read_all(file), "old");
+    EXPECT_EQ(fs::file_size(temporary_name(file)), large.size() + 6);  // the rest is in memory
+    stream.finish();
+    EXPECT_TRUE(read_all(file) == "small " + large + " end");
+  }
+  EXPECT_EQ(files_in(dir.path()), 1);
+  dir.write("a", "old");
+  { FileStream(file).write(large); }  // not finished
+  EXPECT_EQ(read_all(file), "old");
+  EXPECT_EQ(files_in(dir.path()), 1);
+}
+
+TEST(FileIo, AStreamThatFailsLeavesTheOldFileAndNoOther) {
+  const TemporaryDirectory dir;
+  const fs::path file = dir.write("a", "old");
+  rlimit before;
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{3 << 20, before.rlim_max};
+  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const auto error = error_of([&] {
+    FileStream stream(file);
+    for (int i = 0; i < 100; ++i) stream.write(std::string(100000, 'x'));
+    stream.finish();
+  });
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(error, std::pair(ExitStatus::machine, file.string() + ": cannot be written: File too large"));
+  EXPECT_EQ(read_all(file), "old");
+  EXPECT_EQ(files_in(dir.path()), 1);
+}
+
 TEST(FileIo, LinksReplaceAndKeepTheOriginal) {
   const TemporaryDirectory dir;
   const fs::path from = dir.write("from", "bytes"), to = dir.write("to", "other");

@@ -1,0 +1,89 @@
+#include "apps/export/formats.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "apps/error.h"
+#include "apps/export/gltf.h"
+#include "apps/export/usd.h"
+#include "sim/io/field_writers.h"
+#include "sim/io/formats.h"
+
+namespace lagomorph::apps {
+namespace {
+
+std::string vtu(const ExportedScene& scene, const sim::State& state) {
+  sim::TetMesh mesh = scene.model.mesh();
+  mesh.X = sim::as_points(state.q);
+  return sim::io::write_vtu(mesh, sim::fields_of(scene.model, state.q, scene.fields));
+}
+
+/// The surfaces of all bodies, one after the other.
+sim::TriMesh surface_mesh(const ExportedScene& scene, const sim::VecX& q) {
+  sim::TriMesh all;
+  for (const sim::Surface& surface : scene.surfaces) {
+    const int first = static_cast<int>(all.X.rows());
+    all.X.conservativeResize(first + surface.vertex_count(), 3);
+    all.X.bottomRows(surface.vertex_count()) = surface.positions(q);
+    for (const sim::Triangle& t : surface.triangles())
+      all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  return all;
+}
+
+std::string ply(const ExportedScene& scene, const sim::State& state) {
+  std::vector<sim::Field> fields;
+  if (!scene.fields.empty()) fields = sim::fields_of(scene.model, state.q, scene.fields);
+  for (sim::Field& field : fields) {
+    std::vector<double> all;
+    for (const sim::Surface& surface : scene.surfaces) {
+      const std::vector<double> values = surface_values(surface, field.vertices);
+      all.insert(all.end(), values.begin(), values.end());
+    }
+    field.vertices = std::move(all);
+  }
+  return sim::io::write_ply(surface_mesh(scene, state.q), fields);
+}
+
+std::string obj(const ExportedScene& scene, const sim::State& state) {
+  return sim::io::write_obj(surface_mesh(scene, state.q));
+}
+
+/// The explicit table: a new format is one row.
+constexpr ExportFormat formats[] = {{"vtu", ".vtu", true, true, vtu, nullptr},
+                                    {"ply", ".ply", true, false, ply, nullptr},
+                                    {"obj", ".obj", false, false, obj, nullptr},
+                                    {"gltf", ".glb", false, false, nullptr, write_gltf},
+                                    {"usda", ".usda", true, false, nullptr, write_usd}};
+
+}  // namespace
+
+bool ExportedSequence::each(const std::function<void(const sim::State&)>& visit) const {
+  for (int frame = frames.first; frame <= frames.last; ++frame) {
+    if (stop()) return false;
+    visit(state(frame));
+    told();
+  }
+  return true;
+}
+
+std::vector<double> surface_values(const sim::Surface& surface, const std::vector<double>& vertices) {
+  sim::VecX as_x = sim::VecX::Zero(3 * static_cast<Eigen::Index>(vertices.size()));
+  for (std::size_t v = 0; v < vertices.size(); ++v) as_x(3 * static_cast<Eigen::Index>(v)) = vertices[v];
+  const sim::Points carried = surface.positions(as_x);
+  std::vector<double> values(static_cast<std::size_t>(carried.rows()));
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = carried(static_cast<Eigen::Index>(i), 0);
+  return values;
+}
+
+const ExportFormat& find_format(std::string_view name) {
+  std::string names;
+  for (const ExportFormat& format : formats) {
+    if (name == format.name) return format;
+    names += (names.empty() ? "" : ", ") + std::string(format.name);
+  }
+  wrong_input(fmt::format("--format {}: unknown; known are {}", name, names));
+}
+
+}  // namespace lagomorph::apps

@@ -1,0 +1,200 @@
+#include "apps/export/gltf_json.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/version.h"
+
+/// Names and numbers of the glTF 2.0 specification.
+namespace lagomorph::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kUint = 5125, kFloat = 5126;              // component types
+constexpr int kVertexData = 34962, kIndexData = 34963;  // targets of buffer views
+constexpr std::size_t kVec3 = 3 * sizeof(float);        // [bytes]
+
+Json json_of(const Eigen::Ref<const render::Vec3>& v) { return {v.x(), v.y(), v.z()}; }
+
+/// The eye's frame: x right, y up, looking along -z.
+Json camera_node(const render::Camera& camera) {
+  Eigen::Matrix3d axes;
+  axes << camera.right().cast<double>(), camera.up().cast<double>(), -camera.forward().cast<double>();
+  const Eigen::Quaterniond r = Eigen::Quaterniond(axes).normalized();
+  return {{"name", "camera"},
+          {"camera", 0},
+          {"translation", json_of(camera.position())},
+          {"rotation", {r.x(), r.y(), r.z(), r.w()}}};
+}
+
+Json camera_json(const SceneDesc& scene) {
+  const double aspect = static_cast<double>(scene.render.width) / scene.render.height;
+  const float scale = view_scale(scene.camera);
+  if (scene.camera.orthographic) {
+    const double half = *scene.camera.orthographic / 2.0;
+    return {{"type", "orthographic"},
+            {"orthographic",
+             {{"xmag", half * aspect}, {"ymag", half}, {"znear", kNear * scale}, {"zfar", kFar * scale}}}};
+  }
+  return {{"type", "perspective"},
+          {"perspective",
+           {{"aspectRatio", aspect},
+            {"yfov", scene.camera.fov * std::numbers::pi / 180.0},
+            {"znear", kNear * scale}}}};
+}
+
+Json material_json(const MovingMesh& mesh) {
+  const render::Material& look = mesh.look();
+  Json material = {{"name", mesh.name()},
+                   {"pbrMetallicRoughness",
+                    {{"baseColorFactor", {look.base_color.x(), look.base_color.y(), look.base_color.z(), 1}},
+                     {"metallicFactor", look.metallic},
+                     {"roughnessFactor", look.roughness}}},
+                   {"doubleSided", true}};
+  if (look.ior != 1.5F) material["extensions"]["KHR_materials_ior"] = {{"ior", look.ior}};
+  return material;
+}
+
+/// Buffer views, accessors, meshes and the animation, with the indices by which they know each other.
+class Document {
+public:
+  Document(const ExportedSequence& sequence, const std::vector<MovingMesh>& meshes, const GltfLayout& layout)
+      : sequence_(sequence), meshes_(meshes), layout_(layout) {}
+
+  Json build(const std::vector<std::vector<Extent>>& extents) {
+    add_views();
+    Json nodes = Json::array(), materials = Json::array(), meshes = Json::array();
+    std::uint64_t index_at = 0, frame_at = 0;
+    bool has_ior = false;
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+      has_ior = has_ior || meshes_[i].look().ior != 1.5F;
+      materials.push_back(material_json(meshes_[i]));
+      meshes.push_back(mesh_json(i, extents[i], index_at, frame_at));
+      nodes.push_back({{"name", meshes_[i].name()}, {"mesh", i}});
+      index_at += meshes_[i].triangles().size() * sizeof(render::Triangle);
+      frame_at += meshes_[i].vertex_count() * kVec3 * (meshes_[i].has_normals() ? 2 : 1);
+    }
+    const SceneDesc& desc = sequence_.scene.desc;
+    nodes.push_back(camera_node(render::Camera(desc.camera, desc.render.width, desc.render.height)));
+    Json roots = Json::array();
+    for (std::size_t i = 0; i < nodes.size(); ++i) roots.push_back(i);
+    Json file = {{"asset", {{"version", "2.0"}, {"generator", "Lagomorph " + version()}}}};
+    if (has_ior) file["extensionsUsed"] = {"KHR_materials_ior"};
+    file["scene"] = 0;
+    file["scenes"] = {{{"name", desc.name}, {"nodes", roots}}};
+    file["nodes"] = nodes;
+    file["cameras"] = {camera_json(desc)};
+    file["materials"] = materials;
+    file["meshes"] = meshes;
+    if (layout_.frames() > 1) file["animations"] = {animation(desc)};
+    file["accessors"] = accessors_;
+    file["bufferViews"] = views_;
+    file["buffers"] = {{{"byteLength", layout_.size()}}};
+    return file;
+  }
+
+private:
+  /// View 0 holds the triangles, 1 + k those of frame k, the last one the animation.
+  void add_views() {
+    views_.push_back(
+        {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", layout_.index_bytes()}, {"target", kIndexData}});
+    for (int k = 0; k < layout_.frames(); ++k)
+      views_.push_back(
+          {{"buffer", 0},
+           {"byteOffset", layout_.frames_at() + static_cast<std::uint64_t>(k) * layout_.frame_bytes()},
+           {"byteLength", layout_.frame_bytes()},
+           {"byteStride", kVec3},
+           {"target", kVertexData}});
+    if (layout_.frames() > 1)
+      views_.push_back({{"buffer", 0},
+                        {"byteOffset", layout_.index_bytes()},
+                        {"byteLength", layout_.time_bytes() + layout_.weight_bytes()}});
+  }
+
+  std::size_t add(Json accessor) {
+    accessors_.push_back(std::move(accessor));
+    return accessors_.size() - 1;
+  }
+
+  static Json accessor(int view, std::uint64_t at, int type, std::uint64_t count, const char* shape) {
+    return {
+        {"bufferView", view}, {"byteOffset", at}, {"componentType", type}, {"count", count}, {"type", shape}};
+  }
+
+  /// Positions and normals of a body in frame k.
+  Json attributes(const MovingMesh& mesh, const Extent& extent, int k, std::uint64_t at) {
+    Json positions = accessor(1 + k, at, kFloat, mesh.vertex_count(), "VEC3");
+    positions["min"] = json_of(extent.min);
+    positions["max"] = json_of(extent.max);
+    Json attributes = {{"POSITION", add(std::move(positions))}};
+    if (mesh.has_normals())
+      attributes["NORMAL"] =
+          add(accessor(1 + k, at + mesh.vertex_count() * kVec3, kFloat, mesh.vertex_count(), "VEC3"));
+    return attributes;
+  }
+
+  Json mesh_json(std::size_t body, const std::vector<Extent>& extents, std::uint64_t index_at,
+                 std::uint64_t frame_at) {
+    const MovingMesh& mesh = meshes_[body];
+    Json primitive = {{"attributes", attributes(mesh, extents[0], 0, frame_at)}};
+    primitive["indices"] = add(accessor(0, index_at, kUint, 3 * mesh.triangles().size(), "SCALAR"));
+    primitive["material"] = body;
+    Json names = Json::array();
+    for (int k = 1; k < layout_.frames(); ++k) {
+      primitive["targets"].push_back(attributes(mesh, extents[static_cast<std::size_t>(k)], k, frame_at));
+      names.push_back(fmt::format("frame_{:04}", sequence_.frames.first + k));
+    }
+    Json json = {{"name", mesh.name()}, {"primitives", {primitive}}};
+    if (names.empty()) return json;
+    json["weights"] = std::vector<int>(names.size(), 0);
+    json["extras"]["targetNames"] = names;  // as Blender and three.js know them
+    return json;
+  }
+
+  /// One sampler for all bodies: their targets are the same frames.
+  Json animation(const SceneDesc& desc) {
+    const int view = 1 + layout_.frames();
+    const auto frames = static_cast<std::uint64_t>(layout_.frames());
+    Json times = accessor(view, 0, kFloat, frames, "SCALAR");
+    times["min"] = {gltf_time(0, desc.time.fps)};
+    times["max"] = {gltf_time(layout_.frames() - 1, desc.time.fps)};
+    const std::size_t input = add(std::move(times));
+    const std::size_t output =
+        add(accessor(view, layout_.time_bytes(), kFloat, frames * (frames - 1), "SCALAR"));
+    Json channels = Json::array();
+    for (std::size_t i = 0; i < meshes_.size(); ++i)
+      channels.push_back({{"sampler", 0}, {"target", {{"node", i}, {"path", "weights"}}}});
+    return {{"name", desc.name},
+            {"channels", channels},
+            {"samplers", {{{"input", input}, {"interpolation", "LINEAR"}, {"output", output}}}}};
+  }
+
+  const ExportedSequence& sequence_;
+  const std::vector<MovingMesh>& meshes_;
+  const GltfLayout& layout_;
+  Json views_ = Json::array(), accessors_ = Json::array();
+};
+
+}  // namespace
+
+GltfLayout::GltfLayout(const std::vector<MovingMesh>& meshes, int frames) : frames_(frames) {
+  for (const MovingMesh& mesh : meshes) {
+    index_bytes_ += mesh.triangles().size() * sizeof(render::Triangle);
+    frame_bytes_ += mesh.vertex_count() * kVec3 * (mesh.has_normals() ? 2 : 1);
+  }
+  if (frames == 1) return;
+  const auto n = static_cast<std::uint64_t>(frames);
+  time_bytes_ = n * sizeof(float);
+  weight_bytes_ = n * (n - 1) * sizeof(float);
+}
+
+std::string gltf_json(const ExportedSequence& sequence, const std::vector<MovingMesh>& meshes,
+                      const GltfLayout& layout, const std::vector<std::vector<Extent>>& extents) {
+  return Document(sequence, meshes, layout).build(extents).dump();
+}
+
+}  // namespace lagomorph::apps

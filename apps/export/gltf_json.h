@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/export/moving_mesh.h"
+
+namespace lagomorph::apps {
+
+/// Where the data stand in the binary chunk: triangles of all bodies, the animation, then a frame after the
+/// other the positions and normals of each body. [bytes]
+class GltfLayout {
+public:
+  GltfLayout(const std::vector<MovingMesh>&, int frames);
+
+  std::uint64_t index_bytes() const { return index_bytes_; }
+  std::uint64_t time_bytes() const { return time_bytes_; }
+  std::uint64_t weight_bytes() const { return weight_bytes_; }
+  std::uint64_t frame_bytes() const { return frame_bytes_; }
+  std::uint64_t size() const { return frames_at() + static_cast<std::uint64_t>(frames_) * frame_bytes_; }
+  std::uint64_t frames_at() const { return index_bytes_ + time_bytes_ + weight_bytes_; }
+  int frames() const { return frames_; }
+
+private:
+  int frames_;
+  std::uint64_t index_bytes_ = 0, time_bytes_ = 0, weight_bytes_ = 0, frame_bytes_ = 0;
+};
+
+/// Time of the k-th frame of the file. [s]
+inline float gltf_time(int k, double fps) { return static_cast<float>(k / fps); }
+
+/// The JSON chunk. `extents`: of each body's positions, a frame, those after the first less the first's.
+std::string gltf_json(const ExportedSequence&, const std::vector<MovingMesh>&, const GltfLayout&,
+                      const std::vector<std::vector<Extent>>& extents);
+
+}  // namespace lagomorph::apps

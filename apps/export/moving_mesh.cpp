@@ -1,0 +1,45 @@
+#include "apps/export/moving_mesh.h"
+
+#include <utility>
+
+namespace lagomorph::apps {
+
+MovingMesh::MovingMesh(const sim::Surface& surface, const BodyDesc& body, std::string name)
+    : surface_(&surface), name_(std::move(name)), look_(body.look) {
+  for (const sim::Triangle& t : surface.triangles())
+    triangles_.push_back({static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
+                          static_cast<std::uint32_t>(t[2])});
+  if (body.surface.smooth) normals_.emplace(triangles_, vertex_count());
+}
+
+std::vector<render::Vec3> MovingMesh::positions(const sim::VecX& q) const {
+  const sim::Points x = surface_->positions(q);
+  std::vector<render::Vec3> positions(vertex_count());
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    positions[i] = x.row(static_cast<Eigen::Index>(i)).transpose().cast<float>();
+  return positions;
+}
+
+std::vector<render::Vec3> MovingMesh::normals(const std::vector<render::Vec3>& positions) const {
+  std::vector<render::Vec3> normals;
+  normals_->compute(triangles_, positions, normals);
+  return normals;
+}
+
+std::vector<MovingMesh> moving_meshes(const ExportedScene& scene) {
+  std::vector<MovingMesh> meshes;
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
+    meshes.emplace_back(scene.surfaces[i], scene.desc.body[i], scene.model.mesh().bodies[i].name);
+  return meshes;
+}
+
+Extent extent_of(const std::vector<render::Vec3>& points) {
+  Extent extent{points.at(0), points.at(0)};
+  for (const render::Vec3& p : points) {
+    extent.min = extent.min.cwiseMin(p);
+    extent.max = extent.max.cwiseMax(p);
+  }
+  return extent;
+}
+
+}  // namespace lagomorph::apps
