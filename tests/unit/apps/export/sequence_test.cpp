@@ -1,0 +1,179 @@
+#include <cmath>
+#include <regex>
+
+#include "apps/export/usd.h"
+#include "sim/mesh_io.h"
+#include "tests/unit/apps/export/glb.h"
+#include "tests/unit/apps/pipeline/run_fixture.h"
+
+/// Whole sequences in a file: binary glTF and USD ASCII, held to the frames as .ply.
+namespace lagomorph::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr float kRounding = 3e-7F;  // of coordinates below 1 m, added in single precision
+
+class ExportSequence : public ProgramRun {
+protected:
+  Json exported(const std::string& format, const Arguments& more = {}) const {
+    const Ended ended =
+        run_program(Arguments{"export", at("run").string(), "--format", format, "--json"} + more);
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return Json::parse(ended.out);
+  }
+  sim::TriMesh frame(int k) const {
+    sim::Remarks remarks;
+    return sim::read_tri_mesh(at("run/export/frame_000" + std::to_string(k) + ".ply"), remarks);
+  }
+};
+
+std::vector<double> flat(const sim::Points& X) {
+  std::vector<double> values;
+  for (Eigen::Index i = 0; i < X.rows(); ++i)
+    for (int c = 0; c < 3; ++c) values.push_back(X(i, c));
+  return values;
+}
+
+std::vector<std::uint32_t> flat(const std::vector<sim::Triangle>& triangles) {
+  std::vector<std::uint32_t> values;
+  for (const sim::Triangle& t : triangles)
+    for (int i = 0; i < 3; ++i) values.push_back(static_cast<std::uint32_t>(t[static_cast<std::size_t>(i)]));
+  return values;
+}
+
+template <class T>
+void expect_near(const std::vector<T>& values, const std::vector<double>& expected) {
+  ASSERT_EQ(values.size(), expected.size());
+  for (std::size_t i = 0; i < values.size(); ++i) ASSERT_NEAR(values[i], expected[i], kRounding) << i;
+}
+
+TEST_F(ExportSequence, GltfMovesByMorphTargets) {
+  expect(0, simulate("run"));
+  exported("ply");
+  EXPECT_EQ(exported("gltf", {"--frames", "1..3"})["files"], Json::parse(R"(["bar.glb"])"));
+  const Glb glb(read_all(at("run/export/bar.glb")));
+  const Json& primitive = glb.json["meshes"].at(0)["primitives"].at(0);
+  EXPECT_EQ(glb.values<std::uint32_t>(primitive["indices"]), flat(frame(1).triangles));
+  const std::vector<float> base = glb.values<float>(primitive["attributes"]["POSITION"]);
+  const std::vector<float> normals = glb.values<float>(primitive["attributes"]["NORMAL"]);
+  expect_near(base, flat(frame(1).X));
+  ASSERT_EQ(primitive["targets"].size(), 2U);
+  for (int k = 0; k < 2; ++k) {
+    const Json& target = primitive["targets"].at(static_cast<std::size_t>(k));
+    std::vector<float> moved = glb.values<float>(target["POSITION"]);
+    std::vector<float> turned = glb.values<float>(target["NORMAL"]);
+    EXPECT_NE(moved, std::vector<float>(moved.size(), 0.0F));
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += base[i];
+    expect_near(moved, flat(frame(2 + k).X));
+    for (std::size_t i = 0; i < turned.size(); i += 3)
+      ASSERT_NEAR(
+          std::hypot(turned[i] + normals[i], turned[i + 1] + normals[i + 1], turned[i + 2] + normals[i + 2]),
+          1.0F, 1e-6F);
+  }
+  for (const char* key : {"POSITION"})  // bounds are demanded of these
+    for (const Json& target : primitive["targets"])
+      EXPECT_TRUE(glb.json["accessors"].at(target[key].get<std::size_t>()).contains("max"));
+  EXPECT_EQ(glb.json["meshes"][0]["weights"], Json::parse("[0, 0]"));
+  EXPECT_EQ(glb.json["meshes"][0]["extras"]["targetNames"], Json::parse(R"(["frame_0002", "frame_0003"])"));
+  const Json& sampler = glb.json["animations"].at(0)["samplers"].at(0);
+  EXPECT_EQ(glb.json["animations"][0]["channels"],
+            Json::parse(R"([{"sampler": 0, "target": {"node": 0, "path": "weights"}}])"));
+  EXPECT_EQ(glb.values<float>(sampler["input"]),
+            (std::vector<float>{0.0F, static_cast<float>(1 / 30.0), static_cast<float>(2 / 30.0)}));
+  EXPECT_TRUE(glb.json["accessors"].at(sampler["input"].get<std::size_t>()).contains("max"));
+  EXPECT_EQ(glb.values<float>(sampler["output"]), (std::vector<float>{0, 0, 1, 0, 0, 1}));
+}
+
+TEST_F(ExportSequence, GltfHasLookAndCamera) {
+  expect(0, simulate("run", {"--set", "body.0.look.base_color=[0.25, 0.5, 0.75]", "--set",
+                             "body.0.look.metallic=1.0", "--set", "body.0.look.roughness=0.25", "--set",
+                             "body.0.surface.smooth=false"}));
+  exported("gltf", {"--frames", "2"});
+  const Glb glb(read_all(at("run/export/bar.glb")));
+  EXPECT_EQ(
+      glb.json["materials"].at(0)["pbrMetallicRoughness"],
+      Json::parse(
+          R"({"baseColorFactor": [0.25, 0.5, 0.75, 1], "metallicFactor": 1.0, "roughnessFactor": 0.25})"));
+  EXPECT_FALSE(glb.json["meshes"].at(0)["primitives"].at(0)["attributes"].contains("NORMAL"));  // flat
+  EXPECT_FALSE(glb.json["meshes"][0]["primitives"][0].contains("targets"));
+  EXPECT_FALSE(glb.json.contains("animations"));
+  const Json& camera = glb.json["cameras"].at(0);
+  EXPECT_EQ(camera["type"], "perspective");
+  EXPECT_NEAR(camera["perspective"]["yfov"].get<double>(), 35.0 * M_PI / 180.0, 1e-12);
+  EXPECT_NEAR(camera["perspective"]["aspectRatio"].get<double>(), 64.0 / 48.0, 1e-12);
+  const Json& node = glb.json["nodes"].at(1);  // at (0, 0.4, 2), looking at (0, 0.3, 0): turned about x alone
+  EXPECT_NEAR(node["translation"][2].get<double>(), 2.0, 1e-7);
+  EXPECT_NEAR(node["rotation"][0].get<double>(), std::sin(-std::atan2(0.1, 2.0) / 2), 1e-6);
+  EXPECT_NEAR(node["rotation"][1].get<double>(), 0.0, 1e-6);
+}
+
+TEST_F(ExportSequence, UsdHasSamplesByFrame) {
+  expect(0, simulate("run"));
+  exported("ply", {"--fields", "von_mises"});
+  exported("usda", {"--frames", "1..3", "--fields", "von_mises"});
+  const std::string usd = read_all(at("run/export/bar.usda"));
+  EXPECT_TRUE(usd.starts_with("#usda 1.0\n"));
+  for (const char* line :
+       {"upAxis = \"Y\"", "metersPerUnit = 1", "timeCodesPerSecond = 30", "startTimeCode = 1",
+        "endTimeCode = 3", "subdivisionScheme = \"none\"", "def Camera \"camera\""})
+    EXPECT_NE(usd.find(line), std::string::npos) << line;
+  EXPECT_EQ(std::count(usd.begin(), usd.end(), '{'), std::count(usd.begin(), usd.end(), '}'));
+  const auto numbers_after = [&](const std::string& attribute, const std::string& label) {
+    const std::size_t begin = usd.find(label, usd.find(attribute));
+    const std::size_t end = usd.find('\n', begin);
+    const std::string list = usd.substr(begin + label.size(), end - begin - label.size());
+    std::vector<double> values;
+    const std::regex number(R"([-+0-9.e]+)");
+    for (std::sregex_iterator i(list.begin(), list.end(), number), none; i != none; ++i)
+      values.push_back(std::stod(i->str()));
+    return values;
+  };
+  const std::vector<std::uint32_t> triangles = flat(frame(1).triangles);
+  const std::vector<double> corners = numbers_after("int[] faceVertexIndices", " = ");
+  EXPECT_EQ(std::vector<std::uint32_t>(corners.begin(), corners.end()), triangles);
+  EXPECT_EQ(numbers_after("int[] faceVertexCounts", " = "), std::vector<double>(triangles.size() / 3, 3.0));
+  for (int k = 1; k <= 3; ++k) {
+    const std::string label = " " + std::to_string(k) + ": ";
+    const sim::Points X = frame(k).X;
+    expect_near(numbers_after("points.timeSamples", label), flat(X));
+    const std::vector<double> extent = numbers_after("extent.timeSamples", label);
+    ASSERT_EQ(extent.size(), 6U);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(extent[static_cast<std::size_t>(c)], X.col(c).minCoeff(), kRounding);
+      EXPECT_NEAR(extent[static_cast<std::size_t>(c + 3)], X.col(c).maxCoeff(), kRounding);
+    }
+    EXPECT_EQ(numbers_after("normals.timeSamples", label).size(), static_cast<std::size_t>(3 * X.rows()));
+    const std::vector<double> stresses = numbers_after("primvars:von_mises.timeSamples", label);
+    EXPECT_EQ(stresses.size(), static_cast<std::size_t>(X.rows()));
+    EXPECT_GT(*std::max_element(stresses.begin(), stresses.end()), 0.0);
+  }
+}
+
+TEST(PrimNames, AreIdentifiersAndEachItsOwn) {
+  EXPECT_EQ(apps::prim_names({"bar", "2nd bar", "ear.left", "bar", "", "ear left"}),
+            (std::vector<std::string>{"bar", "_2nd_bar", "ear_left", "bar_2", "_", "ear_left_2"}));
+}
+
+TEST_F(ExportSequence, HasTheSameBytesForAnyThreads) {
+  expect(0, simulate("run"));
+  for (const char* format : {"gltf", "usda"})
+    for (const char* threads : {"1", "3"})
+      exported(format, {"--threads", threads, "-o", at(threads).string()});
+  EXPECT_EQ(tree(at("1")), tree(at("3")));
+  EXPECT_EQ(count_files(at("1")), 2);
+}
+
+TEST_F(ExportSequence, AFileThatCannotBeWrittenLeavesNone) {
+  expect(0, simulate("run"));
+  for (const char* format : {"gltf", "usda"}) {
+    const std::string error =
+        expect(4, {"export", at("run").string(), "--quiet", "--format", format}, {.largest_file = 1000});
+    EXPECT_NE(error.find("File too large"), std::string::npos) << error;
+    EXPECT_EQ(count_files(at("run/export")), 0);
+  }
+}
+
+}  // namespace
+}  // namespace lagomorph::tests
