@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# What the program writes, read by others: states by numpy, meshes by meshio and Gmsh, pictures by pngcheck, video by ffprobe.
+# What the program writes, read by others: states by numpy, meshes by meshio and Gmsh, glTF by Assimp, pictures by pngcheck,
+# video by ffprobe; and quadratic tets that Tetgen writes, read by the program.
 # shellcheck source=tests/full/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 work=$(mktemp -d)
@@ -13,6 +14,29 @@ done
 "$program" export run --frames 0..2 --quiet
 "$program" export run --frames 2 --format ply --fields von_mises -o surface --quiet
 "$program" export run --frames 2 --format obj -o surface --quiet
+"$program" export run --format gltf --frames 0..2 --quiet
+"$program" refine run/mesh.msh --order 2 -o quadratic.msh --quiet >/dev/null
+for extension in vtk vtu; do "$program" info quadratic.msh --mend "quadratic.$extension" --quiet >/dev/null; done
+cat >cube.off <<'CUBE'
+OFF
+8 6 0
+0 0 0
+1 0 0
+1 1 0
+0 1 0
+0 0 1
+1 0 1
+1 1 1
+0 1 1
+4 0 3 2 1
+4 4 5 6 7
+4 0 1 5 4
+4 1 2 6 5
+4 2 3 7 6
+4 3 0 4 7
+CUBE
+tetgen -Qpqa0.05o2 cube.off >tetgen.log || { cat tetgen.log; fail "Tetgen"; }
+"$program" info cube.1.ele --mend tetgen.msh --quiet >/dev/null
 /usr/bin/python3 - <<'PY' || fail "numpy or meshio"
 import json, meshio, numpy as np
 meshes = [meshio.read(f"mesh.{e}") for e in ("msh", "mesh", "vtk", "vtu")] + [meshio.read("run/mesh.msh")]
@@ -34,6 +58,12 @@ assert np.allclose(vtu.cell_data["J"][0], volumes[1] / volumes[0])
 assert np.isclose((vtu.cell_data["energy_density"][0] * volumes[0]).sum() / 6, np.genfromtxt("run/energy.csv", delimiter=",", names=True)["elastic"][2])
 ply, obj = meshio.read("surface/frame_0002.ply"), meshio.read("surface/frame_0002.obj")
 assert np.allclose(ply.points, obj.points, atol=1e-15) and len(ply.point_data["von_mises"]) == len(ply.points)
+# meshio knows each format's own order of the midside nodes and gives VTK's.
+for file in ("quadratic.msh", "quadratic.vtk", "quadratic.vtu", "tetgen.msh"):
+    m = meshio.read(file)
+    t = m.points[m.cells_dict["tetra10"]]
+    middles = np.stack([(t[:, a] + t[:, b]) / 2 for a, b in ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))], axis=1)
+    assert np.allclose(t[:, 4:], middles, atol=1e-12), f"midside nodes of {file} are not in the middle of their edges"
 depth = np.load("run/aov/depth/frame_0002.npy")
 assert depth.dtype == np.float32 and depth.shape == (90, 160) and np.isfinite(depth).any(), depth.shape
 run = json.load(open("run/run.json"))
@@ -42,6 +72,8 @@ assert len(energy) == 3 and energy["frame"].tolist() == [0, 1, 2]
 assert np.allclose(energy["kinetic"] + energy["elastic"] + energy["gravitational"], energy["total"], rtol=1e-12, atol=1e-9)
 PY
 gmsh -check run/mesh.msh >gmsh.log 2>&1 || { cat gmsh.log; fail "Gmsh does not read mesh.msh"; }
+assimp info run/export/*.glb >assimp.log 2>&1 || { cat assimp.log; fail "Assimp does not read the .glb"; }
+grep -Eq '^Animations: +1$' assimp.log || { cat assimp.log; fail "Assimp sees no animation in the .glb"; }
 pngcheck -q run/frames/*.png || fail "pngcheck"
 ffprobe -v error -show_entries stream=codec_name,pix_fmt,nb_frames -of csv=p=0 run/*.mp4 | tee probe.txt
 grep -qx 'h264,yuv420p,3' probe.txt || fail "the video is not three frames of H.264 in yuv420p"
