@@ -98,6 +98,11 @@ void visit_look(render::Material& m, KeyVisitor& v) {
         &m.ior);
 }
 
+void visit_body_look(BodyDesc& b, KeyVisitor& v) {
+  visit_look(b.look, v);
+  visit_shown_field(b.shown, v);
+}
+
 void visit_surface(SurfaceDesc& s, KeyVisitor& v) {
   v.key({.name = "mesh",
          .meaning =
@@ -179,7 +184,7 @@ void visit_body(BodyDesc& b, KeyVisitor& v) {
   v.one({.name = "damping", .meaning = "what takes energy out of its motion", .is_inline = true}, p.damping,
         visit_damping);
   v.one({.name = "surface", .meaning = "what of the body is drawn"}, b.surface, visit_surface);
-  v.one({.name = "look", .meaning = "how the body is drawn"}, b.look, visit_look);
+  v.one({.name = "look", .meaning = "how the body is drawn"}, b, visit_body_look);
   v.list(
       {.name = "pin",
        .meaning = "vertices held where they are at the start, or driven; several selectors select the union"},

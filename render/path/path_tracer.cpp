@@ -146,8 +146,9 @@ void PathTracer::arrive(std::uint32_t depth) {
     if (ahead.ground < SceneGeometry::never) {
       begin_vertex(geometry_.arrive_at_ground(ray, ahead.ground), ray, path, shading_.ground_brdf(), share);
     } else if (ahead.on_mesh) {
+      const std::optional<Color> color = geometry_.color_at(hits_[i], ahead.mesh);
       begin_vertex(geometry_.arrive(ray, hits_[i], ahead.mesh), ray, path, shading_.brdfs[hits_[i].mesh],
-                   1.0F);
+                   1.0F, color ? &*color : nullptr);
     }
   }
 }
@@ -208,15 +209,15 @@ Color PathTracer::light_met(const Ray& ray, const Path& path, std::uint32_t from
 }
 
 void PathTracer::begin_vertex(const SurfacePoint& at, const Ray& ray, const Path& path, const Brdf& brdf,
-                              float share) {
+                              float share, const Color* base_color) {
   Vertex& v = vertices_.emplace_back();
   v.origin = at.origin;
   v.n = at.normal;
   make_frame(v.n, v.t, v.b);
   v.brdf = &brdf;
   const float least_alpha = path.least_pdf < 1.0F ? 0.5F * std::sqrt(1.0F - path.least_pdf) : 0.0F;
-  v.view =
-      brdf.view(Vec3(-ray.direction.dot(v.t), -ray.direction.dot(v.b), -ray.direction.dot(v.n)), least_alpha);
+  v.view = brdf.view(Vec3(-ray.direction.dot(v.t), -ray.direction.dot(v.b), -ray.direction.dot(v.n)),
+                     least_alpha, base_color);
   v.throughput = share * path.throughput;
   v.least_pdf = path.least_pdf;
   v.lane = path.lane;

@@ -82,7 +82,8 @@ private:
   Ahead look(const Ray&, const MeshHit&) const;
   Color seen_by_camera(const Ray&, Ahead&) const;
   Color light_met(const Ray&, const Path&, std::uint32_t from, const Ahead&) const;
-  void begin_vertex(const SurfacePoint&, const Ray&, const Path&, const Brdf&, float share);
+  void begin_vertex(const SurfacePoint&, const Ray&, const Path&, const Brdf&, float share,
+                    const Color* base_color = nullptr);
   bool all_lights_at(std::uint32_t depth) const;
   float pick_probability(std::size_t light, std::uint32_t depth) const;
   void gather_lights(std::uint32_t depth);
