@@ -275,7 +275,7 @@ constexpr OptionRow option_rows[] = {
        o.format = one_of(v, "--format", {"vtu", "ply", "obj", "gltf", "usda"});
      }},
     {"--fields", "A,B,...", " export ",
-     "von_mises, J, energy_density, displacement, stiffness, body; by default all in vtu",
+     "von_mises, J, energy_density, displacement, young, poisson, density, body; by default all in vtu",
      [](Options& o, const std::string& v) { o.fields = names_of(v, "--fields"); }},
     {"--heat", "FILE", " compare ", "write where they differ as a PNG; with --out, DIR/heat.png",
      [](Options& o, const std::string& v) { o.heat = non_empty(v, "--heat"); }},

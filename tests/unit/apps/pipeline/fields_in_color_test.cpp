@@ -134,7 +134,7 @@ TEST_F(FieldsInColor, WrongKeysAreTold) {
   const auto said = [&](const std::string& set) { return expect(2, run("r", {"--set", set})); };
   EXPECT_NE(said("body.0.look.field=von_misses")
                 .find("unknown body.0.look.field 'von_misses'; did you mean 'von_mises'? Known are none, "
-                      "von_mises, J, energy_density, displacement, stiffness, body"),
+                      "von_mises, J, energy_density, displacement, young, poisson, density, body"),
             std::string::npos);
   EXPECT_NE(said("body.0.look.colormap=jet")
                 .find("unknown body.0.look.colormap 'jet'; known are auto, viridis, magma, plasma, inferno, "
