@@ -77,13 +77,13 @@ void draw_bar(render::Picture& picture, const ColorBar& bar, const BarLabels& la
   const double x = std::round(left + 0.5 * (l.width() - l.column())),
                y = std::round(top + 2.5 * l.pad + l.text);
   const Rectangle colors{x, y, x + std::round(l.bar_width()), y + std::round(l.bar_height())};
+  const double line = std::max(1.0, std::round(0.12 * l.unit));
+  fill_rectangle(picture, {x - line, y - line, colors.right + line, colors.bottom + line}, plate_ink, 0.5);
   draw_gradient(picture, colors, *bar.map);
   for (const BarLabel& label : labels.ticks) {
     const double along = (label.value - bar.low) / (bar.high - bar.low);
     const double at = colors.bottom - along * (colors.bottom - colors.top);
-    const double thickness = std::max(1.0, 0.15 * l.unit);
-    fill_rectangle(picture,
-                   {colors.right, at - 0.5 * thickness, colors.right + l.tick(), at + 0.5 * thickness},
+    fill_rectangle(picture, {colors.right, at - 0.5 * line, colors.right + l.tick(), at + 0.5 * line},
                    plate_ink);
     draw_text(picture, colors.right + 2.2 * l.tick(), at + 0.5 * l.text, label.text, style);
   }
