@@ -13,7 +13,7 @@
 #include "render/raster/gl_objects.h"
 #include "render/raster/light_maps.h"
 #include "render/raster/mesh_buffers.h"
-#include "render/raster/seen_programs.h"
+#include "render/raster/programs.h"
 #include "render/raster/shaders/shaders.h"
 #include "render/raster/targets.h"
 #include "render/raster/view_range.h"
@@ -38,36 +38,6 @@ RasterSettings checked(const RasterSettings& s) {
   }
   return s;
 }
-
-/// All but those of LightMaps, and those that few scenes need.
-struct Programs {
-  explicit Programs(int multisample)
-      : samples_("#define SAMPLES " + std::to_string(multisample) + "\n"),
-        seen(multisample, false),
-        ground_cover("ground cover", {shaders::frame, shaders::ground_vertex},
-                     {shaders::frame, shaders::ground_point, shaders::ground_cover_fragment}),
-        background("background", {shaders::full_screen_vertex},
-                   {shaders::frame, shaders::sky, shaders::background_fragment}),
-        ground("ground", {shaders::frame, shaders::ground_vertex},
-               {shaders::frame, shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point,
-                shaders::ground_fragment}),
-        shadowed_ground("shadowed ground", {shaders::frame, shaders::ground_vertex},
-                        {"#define SHADOWS\n", shaders::frame, shaders::brdf, shaders::shadow, shaders::sky,
-                         shaders::shade, shaders::ground_point, shaders::ground_fragment}),
-        count("count of layers", {shaders::full_screen_vertex},
-              {samples_.c_str(), shaders::frame, shaders::layers, shaders::count_fragment}),
-        mesh_depth("mesh depth", {shaders::frame, shaders::mesh_vertex},
-                   {shaders::frame, shaders::mesh_depth_fragment}),
-        ground_depth("ground depth", {shaders::frame, shaders::ground_vertex},
-                     {shaders::frame, shaders::ground_point, shaders::ground_depth_fragment}) {}
-
-private:
-  std::string samples_;
-
-public:
-  SeenPrograms seen;
-  Program ground_cover, background, ground, shadowed_ground, count, mesh_depth, ground_depth;
-};
 
 class RasterRenderer final : public Renderer {
 public:

@@ -6,7 +6,7 @@
 
 #include "apps/pipeline/build_scene.h"
 #include "apps/scene/scene.h"
-#include "tests/support/paths.h"
+#include "tests/support/run_tree.h"
 
 namespace lagomorph::apps {
 namespace {
