@@ -25,6 +25,9 @@ public:
   explicit SceneGeometry(const RenderScene&);
 
   void move(int mesh, std::span<const Vec3> positions);
+  /// Where the mesh is at time 0, of a scene that is `moving`; move() makes it stand still.
+  void open(int mesh, std::span<const Vec3> positions);
+  bool moving() const { return moving_; }
   /// Makes the normals and the hierarchy follow what has moved.
   void commit();
   const RayCaster& caster() const { return caster_; }
@@ -54,9 +57,14 @@ private:
     VertexNormals topology;
     bool smooth;
     bool moved;
+    std::vector<Vec3> opening;          // positions at time 0; empty when it stands still
+    std::vector<Vec3> opening_normals;  // likewise
   };
+  Eigen::Vector3d position(const Moving&, std::uint32_t vertex, float time) const;
+  Vec3 normal(const Moving&, std::uint32_t vertex, float time) const;
   std::vector<Moving> meshes_;
   Ground ground_;
+  bool moving_;
   RayCaster caster_;
 };
 
