@@ -25,7 +25,7 @@ const std::string* find(const Keys& keys, const std::string& key) {
 /// A value that fits into a message: lists of vertices and hashes are long.
 std::string shortened(const std::string* value) {
   constexpr std::size_t most = 48;
-  if (value == nullptr) return "(not there)";
+  if (value == nullptr) return "default";
   return value->size() <= most ? *value : value->substr(0, most - 3) + "...";
 }
 

@@ -61,8 +61,7 @@ private:
 }  // namespace
 
 std::string scene_key_table_markdown() {
-  SceneDesc scene;
-  scene.light.emplace_back();
+  SceneDesc scene = default_scene();
   MarkdownTable table;
   visit_scene(scene, table);
   return table.text;

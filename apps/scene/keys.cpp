@@ -451,4 +451,10 @@ void visit_scene(SceneDesc& s, KeyVisitor& v) {
         visit_background);
 }
 
+SceneDesc default_scene() {
+  SceneDesc scene;
+  scene.light.emplace_back();  // the key light of a scene that names none
+  return scene;
+}
+
 }  // namespace lagomorph::apps

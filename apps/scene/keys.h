@@ -124,4 +124,7 @@ public:
 
 void visit_scene(SceneDesc&, KeyVisitor&);
 
+/// A scene file that says nothing: no body, one light.
+SceneDesc default_scene();
+
 }  // namespace lagomorph::apps

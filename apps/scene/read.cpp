@@ -153,8 +153,7 @@ std::string Places::of(std::string path) const {
 SceneDesc read_scene(std::string_view text, const std::string& origin, std::span<const std::string> overrides,
                      Places& places) {
   const Document document(text, origin, overrides);
-  SceneDesc scene;
-  scene.light.emplace_back();  // the key light of a scene that names none
+  SceneDesc scene = default_scene();
   Reader(document, places).read(scene);
   return scene;
 }

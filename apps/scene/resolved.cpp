@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -56,15 +57,67 @@ private:
   const SceneDesc& scene_;
 };
 
+/// Whether the presence of a table's elements is of the simulation or of the pictures: of the simulation
+/// where any of their keys is. Leaves the table as it is.
+Part part_of(const Elements& elements) {
+  class Parts : public KeyVisitor {
+  public:
+    Part part = Part::none;
+    void key(const Key& k, Field) override {
+      if (k.part == Part::simulation || part == Part::none) part = k.part;
+    }
+    void table(const Table&, const Elements& inner) override {
+      if (inner.kind == Elements::Kind::one) inner.visit(0, *this);
+    }
+  } parts;
+  const int size = elements.size();
+  if (size == 0) elements.resize(1);
+  elements.visit(0, parts);
+  if (size == 0) elements.resize(0);
+  return parts.part;
+}
+
+using TableSizes = std::map<std::string, int>;  // by path, of the tables whose size is free
+
+/// Collects the sizes of tables, and gives them those of another scene where these are given.
+class Sizes : public PathVisitor {
+public:
+  explicit Sizes(const TableSizes* wanted = nullptr) : wanted_(wanted) {}
+  TableSizes found;
+
+  void key(const Key&, Field) override {}
+  void table(const Table& about, const Elements& elements) override {
+    if (elements.kind != Elements::Kind::one) {
+      const std::string path = path_of(about.name);
+      found[path] = elements.size();
+      if (wanted_ != nullptr) elements.resize(wanted_->at(path));
+    }
+    PathVisitor::table(about, elements);
+  }
+
+private:
+  const TableSizes* wanted_;
+};
+
+/// The keys of a part, and the sizes of tables.
 class PartCollector : public PathVisitor {
 public:
-  PartCollector(const SceneDesc& scene, Part part) : scene_(scene), part_(part) {}
+  PartCollector(const SceneDesc& scene, Part part, const TableSizes& sizes)
+      : scene_(scene), part_(part), sizes_(sizes) {}
   std::vector<ResolvedKey> keys;
+
   void key(const Key& k, Field field) override {
     if (k.part != part_) return;
     std::string value = toml_value(field).value_or("not given");
     if (k.file) value = contents(*std::get<std::string*>(field));
     keys.push_back({path_of(k.name), value});
+  }
+  void table(const Table& about, const Elements& elements) override {
+    if (elements.kind != Elements::Kind::one && part_of(elements) == part_) {
+      const std::string path = path_of(about.name);
+      keys.push_back({path, fmt::format("{} of them", sizes_.at(path))});
+    }
+    PathVisitor::table(about, elements);
   }
 
 private:
@@ -77,13 +130,25 @@ private:
 
   const SceneDesc& scene_;
   Part part_;
+  const TableSizes& sizes_;
 };
 
+/// A key that comes later, and is not used, leaves older runs and references what they are.
 std::vector<ResolvedKey> keys_of(const SceneDesc& scene, Part part) {
-  SceneDesc shown = scene;
-  PartCollector collector(scene, part);
-  visit_scene(shown, collector);
-  return collector.keys;
+  SceneDesc shown = scene, plain = default_scene();
+  Sizes sizes;
+  visit_scene(shown, sizes);
+  Sizes plain_sizes(&sizes.found);
+  visit_scene(plain, plain_sizes);
+
+  PartCollector collected(scene, part, sizes.found), defaults(scene, part, plain_sizes.found);
+  visit_scene(shown, collected);
+  visit_scene(plain, defaults);
+  std::vector<ResolvedKey> keys;
+  for (std::size_t i = 0; i < collected.keys.size(); ++i) {
+    if (collected.keys[i].value != defaults.keys[i].value) keys.push_back(std::move(collected.keys[i]));
+  }
+  return keys;
 }
 
 }  // namespace

@@ -21,11 +21,11 @@ SceneDesc parse_scene(std::string_view text, const std::filesystem::path& file,
 /// The scene as TOML with every key written out; parsing it gives the same description. Floats round-trip.
 std::string scene_to_toml(const SceneDesc&);
 
-/// A resolved value by its key: ("body.0.density", "1000"). In the fixed order of the key table; for hashes
-/// and differences.
+/// A value that is not the key's default, ("body.0.density", "900"), or the size of a table, ("light", "2 of
+/// them"). In the fixed order of the key table; for hashes and differences.
 struct ResolvedKey {
   std::string key;
-  std::string value;  // as in TOML
+  std::string value;  // as in TOML; of a file the hash of its contents
 };
 /// Keys that the states depend on: bodies (physics, the mesh by the hash of its contents), time but `frames`,
 /// solver; not the name.

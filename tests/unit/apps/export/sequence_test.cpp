@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cmath>
-#include <regex>
+#include <iterator>
+#include <sstream>
+#include <string_view>
 
 #include "apps/export/usd.h"
 #include "sim/mesh_io.h"
@@ -123,12 +126,12 @@ TEST_F(ExportSequence, UsdHasSamplesByFrame) {
   const auto numbers_after = [&](const std::string& attribute, const std::string& label) {
     const std::size_t begin = usd.find(label, usd.find(attribute));
     const std::size_t end = usd.find('\n', begin);
-    const std::string list = usd.substr(begin + label.size(), end - begin - label.size());
-    std::vector<double> values;
-    const std::regex number(R"([-+0-9.e]+)");
-    for (std::sregex_iterator i(list.begin(), list.end(), number), none; i != none; ++i)
-      values.push_back(std::stod(i->str()));
-    return values;
+    std::string list = usd.substr(begin + label.size(), end - begin - label.size());
+    std::replace_if(
+        list.begin(), list.end(),
+        [](char c) { return std::string_view("[](),").find(c) != std::string_view::npos; }, ' ');
+    std::istringstream words(list);
+    return std::vector<double>(std::istream_iterator<double>(words), {});
   };
   const std::vector<std::uint32_t> triangles = flat(frame(1).triangles);
   const std::vector<double> corners = numbers_after("int[] faceVertexIndices", " = ");

@@ -38,8 +38,8 @@ TEST(Identity, DifferencesNameTheKeys) {
                    "build.simulation \"a\" -> \"b\"", "build.program \"a\" -> \"b\""}));
   EXPECT_EQ(differences(a, some_identity("999.0", "20.0"), false), Texts{"body.0.density 1000.0 -> 999.0"});
   const Identity fewer({{"time.fps", "30.0"}}, a.picture(), a.simulation_build(), a.picture_build());
-  EXPECT_EQ(differences(a, fewer, true), Texts{"body.0.density 1000.0 -> (not there)"});
-  EXPECT_EQ(differences(fewer, a, true), Texts{"body.0.density (not there) -> 1000.0"});
+  EXPECT_EQ(differences(a, fewer, true), Texts{"body.0.density 1000.0 -> default"});
+  EXPECT_EQ(differences(fewer, a, true), Texts{"body.0.density default -> 1000.0"});
   EXPECT_EQ(differences(a, some_identity(std::string(100, '1')), false),
             Texts{"body.0.density 1000.0 -> " + std::string(45, '1') + "..."});
 }

@@ -47,19 +47,31 @@ protected:
 };
 
 TEST_F(Resolved, EachKeyIsOfOnePart) {
-  const std::vector<ResolvedKey> simulation = simulation_keys(load());
-  const std::vector<ResolvedKey> picture = picture_keys(load());
-  EXPECT_EQ(value_of(simulation, "time.fps"), "30.0");
+  const SceneDesc scene = load({"time.fps=24", "time.frames=7", "name=other", "camera.fov=36",
+                                "light.0.size=[2, 1]", "body.0.material.model=neo_hookean"});
+  const std::vector<ResolvedKey> simulation = simulation_keys(scene);
+  const std::vector<ResolvedKey> picture = picture_keys(scene);
+  EXPECT_EQ(value_of(simulation, "time.fps"), "24.0");
   EXPECT_EQ(value_of(simulation, "body.0.pin.0.top"), "0.1");
-  EXPECT_EQ(value_of(simulation, "body.0.pin.0.bottom"), "not given");
-  EXPECT_EQ(value_of(simulation, "body.0.material.model"), "\"stable_neo_hookean\"");
-  EXPECT_EQ(value_of(picture, "camera.fov"), "35.0");
-  EXPECT_EQ(value_of(picture, "light.0.size"), "[1.5, 1.5]");
+  EXPECT_EQ(value_of(simulation, "body.0.pin"), "1 of them");
+  EXPECT_EQ(value_of(simulation, "body.0.material.model"), "\"neo_hookean\"");
+  EXPECT_EQ(value_of(picture, "camera.fov"), "36.0");
+  EXPECT_EQ(value_of(picture, "light.0.size"), "[2.0, 1.0]");
   for (const char* key : {"name", "time.frames"}) {
     EXPECT_EQ(value_of(simulation, key), "no such key");
     EXPECT_EQ(value_of(picture, key), "no such key");
   }
   for (const ResolvedKey& k : simulation) EXPECT_EQ(value_of(picture, k.key), "no such key") << k.key;
+}
+
+TEST_F(Resolved, WhatIsAtItsDefaultDoesNotCount) {
+  const SceneDesc scene = load();
+  const SceneDesc written_out = parse_scene(scene_to_toml(scene), scene_file, {});
+  EXPECT_TRUE(differences(simulation_keys(scene), simulation_keys(written_out)).empty());
+  EXPECT_TRUE(differences(picture_keys(scene), picture_keys(written_out)).empty());
+  EXPECT_EQ(value_of(simulation_keys(scene), "time.fps"), "no such key");
+  EXPECT_EQ(value_of(picture_keys(scene), "light"), "no such key");
+  EXPECT_EQ(value_of(picture_keys(load({"light=[]"})), "light"), "0 of them");
 }
 
 TEST_F(Resolved, AChangeShowsInItsPartAlone) {
@@ -82,7 +94,7 @@ TEST_F(Resolved, AChangeShowsInItsPartAlone) {
   EXPECT_EQ(changes("body.0.look.roughness=0.1"), "picture:body.0.look.roughness");
   EXPECT_EQ(changes("body.0.surface.smooth=false"), "picture:body.0.surface.smooth");
   EXPECT_EQ(changes("background.color=[0, 0, 0]"), "picture:background.color");
-  EXPECT_EQ(changes("light=[]"), "picture:6");
+  EXPECT_EQ(changes("light=[]"), "picture:light");
 }
 
 TEST_F(Resolved, FilesCountByTheirContents) {
