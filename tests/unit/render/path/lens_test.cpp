@@ -77,6 +77,8 @@ TEST(Lens, AperturesAreFilledEvenly) {
   EXPECT_THROW(Camera(two, 4, 4), SettingsError);
 }
 
+constexpr float spread = 0.04F;  // side of the quad over its distance: some 50 pixels, so that noise is small
+
 /// Rms radius of the picture of a small bright quad at a distance before the camera [pixels], and its light.
 struct Spot {
   double radius, light;
@@ -87,7 +89,7 @@ Spot spot_of(const CameraSettings& camera, float distance) {
   scene.sky.zenith = scene.sky.horizon = Color::Ones();
   scene.sky.strength = 1.0F;
   scene.background = Color::Zero();
-  const float size = 0.004F * distance;
+  const float size = spread * distance;
   scene.meshes = {make_quad(Vec3(-size / 2, -size / 2, 4.0F - distance), Vec3(size, 0, 0), Vec3(0, size, 0))};
   scene.meshes[0].material = {Color::Ones(), 1.0F, 0.0F, 1.0F};
   RenderSettings s;
@@ -120,7 +122,7 @@ TEST(Lens, TheCircleOfConfusionIsThatOfTheThinLens) {
   for (const float z : {2.5F, 3.0F, 6.0F}) {
     const double disc = static_cast<double>(c.lens_radius()) * std::abs(z - 4.0) / z / pixel;
     ASSERT_GT(disc, 4.0);
-    const double own = 0.004 * 4.0 / pixel;  // side of the quad, seen there
+    const double own = static_cast<double>(spread) * 4.0 / pixel;  // side of the quad, seen there
     const double expected = std::sqrt(disc * disc / 2.0 + own * own / 6.0 + 1.0 / 6.0);
     EXPECT_NEAR(spot_of(camera, z).radius, expected, 0.01 * expected) << z;
   }

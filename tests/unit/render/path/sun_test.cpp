@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "render/backends.h"
+#include "render/path/brdf.h"
 #include "tests/unit/render/path/shapes.h"
 
 namespace lagomorph::render::path {
@@ -107,17 +108,31 @@ TEST(SunLight, ThePenumbraIsAsWideAsItsAngle) {
   EXPECT_NEAR(crossing(0.5), 0.0, 0.006);
 }
 
-TEST(SunLight, MirrorsAndRoughMetalsSeeItAlike) {
-  // Energy: light that a metal plane under a wide sun sends up does not depend on who found the sun.
+TEST(SunLight, EveryRoughnessReflectsItAsQuadratureSays) {
+  // Of a metal plane seen from straight above, under a disc 60 degrees wide overhead: the BRDF over the disc.
   RenderScene scene = lit_ground(60.0F);
   scene.suns[0].direction = Vec3(0.0F, -1.0F, 0.0F);
-  for (const float roughness : {0.0F, 0.3F}) {
+  const double radiance = 3.0 / (pi * std::pow(std::sin(pi / 6.0), 2.0));
+  for (const float roughness : {0.0F, 0.3F, 0.6F, 1.0F}) {
     scene.ground.material = {Color::Ones(), roughness, 1.0F, 1.5F};
-    RenderScene by_sky = scene;
-    const std::vector<float> values = draw(scene, 0.0F, 0.2F, 4, "path", 1024);
-    // Looked at straight from above, all of a narrow lobe meets the disc: its radiance.
-    const double radiance = 3.0 / (pi * std::pow(std::sin(pi / 6.0), 2.0));
-    EXPECT_NEAR(values[0], radiance, roughness == 0.0F ? 0.01 * radiance : 0.15 * radiance) << roughness;
+    double expected = radiance;  // a mirror shows it
+    if (roughness > 0.0F) {
+      const Brdf brdf(scene.ground.material);
+      const Brdf::View view = brdf.view(Vec3(0, 0, 1));
+      double sum = 0.0;
+      constexpr int n = 2000;
+      for (int i = 0; i < n; ++i) {
+        const double theta = pi / 6.0 * (i + 0.5) / n;
+        const Vec3 wi(static_cast<float>(std::sin(theta)), 0.0F, static_cast<float>(std::cos(theta)));
+        sum += static_cast<double>(brdf.evaluate(view, wi).f_cos.x()) * std::sin(theta);
+      }
+      expected = radiance * 2.0 * pi * sum * (pi / 6.0) / n;
+    }
+    const std::vector<float> values = draw(scene, 0.0F, 0.2F, 4, "path", 4096);
+    double mean = 0.0;
+    for (std::size_t i = 0; i < values.size(); i += 3) mean += static_cast<double>(values[i]);
+    mean /= static_cast<double>(values.size()) / 3.0;
+    EXPECT_NEAR(mean, expected, 5e-3 * expected) << roughness;
   }
 }
 
