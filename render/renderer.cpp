@@ -2,6 +2,7 @@
 
 #include "render/backends.h"
 #include "render/error.h"
+#include "render/raster/stand_ins.h"
 
 namespace lagomorph::render {
 namespace {
@@ -49,6 +50,14 @@ std::unique_ptr<Renderer> make_renderer(const RenderSettings& settings, int thre
   }
   throw SettingsError("render.backend: unknown back end '" + settings.backend + "'; known are " +
                       joined(renderer_names()));
+}
+
+std::vector<std::string> renderer_remarks(const RenderSettings& settings, const CameraSettings& camera,
+                                          const RenderScene& scene) {
+  if (settings.backend != "raster") return {};
+  std::vector<std::string> remarks = raster::stand_in_remarks(camera, scene);
+  for (std::string& remark : remarks) remark = "raster: " + remark;
+  return remarks;
 }
 
 }  // namespace lagomorph::render

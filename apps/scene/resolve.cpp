@@ -182,6 +182,16 @@ void check_camera(const render::CameraSettings& c, const Places& places) {
   }
 }
 
+/// The usual strengths of an image and of the physical model are others than the gradient's.
+void resolve_sky(SkyDesc& sky, const Places& places) {
+  if (places.has("sky.strength")) return;
+  if (!sky.image.empty()) {
+    sky.strength = 1.0F;
+  } else if (sky.model == "physical") {
+    sky.strength = 5.0F;
+  }
+}
+
 void check_looks(const SceneDesc& scene, const Places& places) {
   for (std::size_t i = 0; i < scene.body.size(); ++i) {
     const std::optional<std::array<double, 2>>& range = scene.body[i].shown.range;
@@ -196,8 +206,12 @@ void check_looks(const SceneDesc& scene, const Places& places) {
                             scene.ground.fade_start, scene.ground.radius));
   }
   for (std::size_t i = 0; i < scene.light.size(); ++i) {
-    if (scene.light[i].position != scene.light[i].look_at) continue;
     const std::string path = fmt::format("light.{}", i);
+    if (scene.light[i].kind == "sun") {
+      if (scene.light[i].direction.cwiseAbs().maxCoeff() > 0.0F) continue;
+      wrong_input(fmt::format("{}{}.direction must not be 0", places.of(path + ".direction"), path));
+    }
+    if (scene.light[i].position != scene.light[i].look_at) continue;
     std::string key = path + ".look_at";
     if (!places.has(key)) key = path + ".position";
     wrong_input(fmt::format("{}{}.position and {}.look_at are the same point", places.of(key), path, path));
@@ -258,9 +272,11 @@ void resolve_scene(SceneDesc& scene, const Places& places, const std::string& st
   }
   check_camera(scene.camera, places);
   check_looks(scene, places);
+  resolve_sky(scene.sky, places);
 }
 
 void check_scene_files(const SceneDesc& scene, const Places& places) {
+  check_file(scene, scene.sky.image, "sky.image", {".hdr"}, places);
   for (std::size_t i = 0; i < scene.body.size(); ++i) {
     const std::string path = fmt::format("body.{}", i);
     check_file(scene, scene.body[i].mesh, path + ".mesh", sim::tet_mesh_extensions(), places);

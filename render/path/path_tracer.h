@@ -1,13 +1,18 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "render/camera.h"
 #include "render/path/brdf.h"
 #include "render/path/filter.h"
+#include "render/path/lens.h"
 #include "render/path/light.h"
 #include "render/path/sampler.h"
 #include "render/path/scene_geometry.h"
+#include "render/path/sky_sampler.h"
+#include "render/path/sun.h"
 #include "render/render_scene.h"
 
 namespace lagomorph::render::path {
@@ -21,9 +26,15 @@ struct Shading {
   std::vector<Brdf> brdfs;  // a mesh each, then the ground's
   std::vector<RectangleLight> lights;
   std::vector<float> pick;  // probability of each light where one is picked
+  std::vector<SunLight> suns;
+  std::vector<float> sun_pick;  // likewise
   Ground ground;
   Sky sky;
+  std::optional<SkySampler> sky_sampler;  // of a sky with a map
   std::optional<Color> background;
+
+  /// What the camera sees along a direction that meets nothing.
+  Color open_view(const Vec3& direction) const;
 
   const Brdf& ground_brdf() const { return brdfs.back(); }
 };
@@ -37,9 +48,9 @@ struct Tile {
 /// packets. Keeps its room from batch to batch.
 ///
 /// At each surface, light arrives by next-event estimation of the area lights and the sky and by the
-/// scattered ray that finds them, weighed by the power heuristic [Veach 1997]. From the fourth surface on,
-/// dim paths are ended by Russian roulette. The lights are no obstacle; one that is visible is opaque to the
-/// camera.
+/// scattered ray that finds them (of suns likewise), weighed by the power heuristic [Veach 1997]. From the
+/// fourth surface on, dim paths are ended by Russian roulette. The lights are no obstacle; one that is
+/// visible is opaque to the camera.
 class PathTracer {
 public:
   PathTracer(const SceneGeometry&, const Shading&, const Camera&, const PixelFilter&, int samples,
@@ -48,6 +59,12 @@ public:
   /// Mean radiance of the tile's pixels into `color`, 3 floats a pixel of the whole picture. Sums go in the
   /// order of the samples. `statistics`, of the same tile, takes every sample; nullptr: none is kept.
   void trace(const Tile&, const FrameSamples&, float* color, TileStatistics* statistics = nullptr);
+
+  struct PixelSample {
+    int x, y, sample;
+  };
+  /// The radiance of single samples, one each.
+  void trace(std::span<const PixelSample>, const FrameSamples&, std::span<Color> radiance);
 
 private:
   struct Path {
@@ -77,6 +94,9 @@ private:
     bool on_mesh;
   };
 
+  void begin_batch(std::size_t count);
+  void begin_path(std::uint32_t lane, int x, int y, const PathSamples&);
+  void finish_batch();
   void trace_batch(std::uint32_t depth);
   void arrive(std::uint32_t depth);
   Ahead look(const Ray&, const MeshHit&) const;
@@ -88,6 +108,7 @@ private:
   float pick_probability(std::size_t light, std::uint32_t depth) const;
   void gather_lights(std::uint32_t depth);
   void gather_light(const Vertex&, const RectangleLight&, float pick, Pair);
+  void gather_suns(std::uint32_t depth);
   void gather_sky(std::uint32_t depth);
   void push_shadow(const Ray&, float distance, const Color& arriving, std::uint32_t lane);
   void trace_shadows(Coherence);
@@ -97,6 +118,8 @@ private:
   const Shading& shading_;
   const Camera& camera_;
   const PixelFilter& filter_;
+  Aperture aperture_;
+  bool moving_;  // rays have times
   std::uint32_t samples_, bounces_;
 
   std::vector<Ray> rays_;  // of paths_
@@ -109,6 +132,7 @@ private:
   std::vector<std::uint32_t> shadow_lanes_;
   std::vector<std::uint8_t> blocked_;
   std::vector<Color> radiance_;  // of each lane
+  std::vector<float> times_;     // of each lane, where rays have them
 };
 
 }  // namespace lagomorph::render::path

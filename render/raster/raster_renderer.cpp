@@ -15,6 +15,7 @@
 #include "render/raster/mesh_buffers.h"
 #include "render/raster/programs.h"
 #include "render/raster/shaders/shaders.h"
+#include "render/raster/stand_ins.h"
 #include "render/raster/targets.h"
 #include "render/raster/view_range.h"
 
@@ -115,13 +116,12 @@ SurfaceBlock surface_block(const Material& m) {
 
 void RasterRenderer::set_scene(const RenderScene& scene) {
   check_scene(scene);
-  if (scene.lights.size() > static_cast<std::size_t>(most_lights)) {
+  if (scene.lights.size() + scene.suns.size() > static_cast<std::size_t>(most_lights)) {
     throw SettingsError("the raster back end draws at most " + std::to_string(most_lights) +
-                        " lights; this scene has " + std::to_string(scene.lights.size()));
+                        " lights; this scene has " + std::to_string(scene.lights.size() + scene.suns.size()));
   }
   context_->make_current();
-  scene_ = scene;
-  scene_.meshes.clear();
+  scene_ = with_stand_ins(scene);
   positions_.clear();
   body_ids_.clear();
   gl_->meshes.clear();
@@ -143,7 +143,7 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
 void RasterRenderer::upload_surfaces(const RenderScene& scene) {
   std::vector<SurfaceBlock> surfaces = {surface_block(scene.ground.material)};
   for (const Mesh& mesh : scene.meshes) surfaces.push_back(surface_block(mesh.material));
-  for (const AreaLight& light : scene.lights)
+  for (const AreaLight& light : scene_.lights)
     surfaces.push_back({vec4(Color(light.radiance * light.color), 1.0F), Vec4::Zero()});
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, gl_->surfaces.id());
   glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(surfaces.size() * sizeof(SurfaceBlock)),

@@ -48,7 +48,9 @@ private:
   void fill(const Key& k, int& value) {
     value = static_cast<int>(std::max(k.bounds.low, -1e6) +
                              (std::min(k.bounds.high, 1e6) - std::max(k.bounds.low, -1e6)) * unit());
-    if (k.holds != nullptr) value = std::string(k.name) == "multisample" ? 1 + 3 * below(2) : 256 << below(6);
+    if (k.holds == nullptr) return;
+    do value = below(2) == 0 ? below(8) : 1 << below(16);
+    while (!k.bounds.hold(value) || !k.holds(value));
   }
   void fill(const Key&, std::uint32_t& value) { value = static_cast<std::uint32_t>(random_()); }
   void fill(const Key& k, double& value) { value = number(k.bounds, 300.0); }
