@@ -85,6 +85,10 @@ private:
     fill(k, value.min);
     value.max = value.min + value.min.cwiseAbs();
   }
+  void fill(const Key&, std::array<double, 2>& value) {
+    value[0] = 1e3 * (unit() - 0.5);
+    value[1] = value[0] + 1.0 + unit();
+  }
   void fill(const Key& k, std::vector<int>& value) {
     value.resize(static_cast<std::size_t>(below(5)));
     for (int& v : value) fill(k, v);
@@ -167,7 +171,7 @@ void settle(SceneDesc& s, RandomFill& random) {
 class Flat : public KeyVisitor {
 public:
   using Value = std::variant<bool, int, std::uint32_t, double, float, std::string, sim::Vec3, render::Vec2,
-                             render::Vec3, std::vector<int>, std::vector<std::string>,
+                             render::Vec3, std::array<double, 2>, std::vector<int>, std::vector<std::string>,
                              std::vector<std::array<double, 2>>, std::vector<double>, std::vector<sim::Vec3>,
                              std::monostate>;
   std::vector<std::pair<std::string, Value>> values;
