@@ -7,6 +7,7 @@
 #include "apps/file_io.h"
 #include "apps/hash.h"
 #include "apps/npy.h"
+#include "apps/overlay/caption.h"
 #include "apps/overlay/color_bar.h"
 #include "apps/pipeline/stopwatch.h"
 #include "apps/run/state_file.h"
@@ -23,17 +24,34 @@ std::string encode_channel(const render::Channel& channel) {
   return npy_bytes(channel.values, std::span(shape).first(channel.components == 1 ? 2 : 3));
 }
 
+CaptionValues caption_values(const SceneDesc& scene, int frame, const StateRecord& state) {
+  return {.name = scene.name,
+          .frame = frame,
+          .frames = scene.time.frames,
+          .time = state.time,
+          .kinetic = state.energy.kinetic,
+          .elastic = state.energy.elastic,
+          .gravitational = state.energy.gravitational,
+          .total = state.energy.total(),
+          .iterations = state.report.newton_iterations,
+          .min_J = state.min_J};
+}
+
 }  // namespace
 
-FrameWriter::FrameWriter(const RunPaths& paths, const Identity& identity,
-                         const render::RenderSettings& settings, const std::map<int, FrameRecord>& records,
-                         const SurfaceFields& fields, bool draws)
-    : paths_(paths), identity_(identity), settings_(settings), records_(records), fields_(fields) {
+FrameWriter::FrameWriter(const RunPaths& paths, const Identity& identity, const SceneDesc& scene,
+                         const std::map<int, FrameRecord>& records, const SurfaceFields& fields, bool draws)
+    : paths_(paths),
+      identity_(identity),
+      scene_(scene),
+      settings_(scene.render),
+      records_(records),
+      fields_(fields) {
   make_folder(paths.states());
   make_folder(paths.records());
   if (!draws) return;
   make_folder(paths.pictures());
-  for (const std::string& channel : settings.channels) make_folder(paths.channel(channel));
+  for (const std::string& channel : settings_.channels) make_folder(paths.channel(channel));
 }
 
 void FrameWriter::write(const DrawnFrame& frame) const {
@@ -45,7 +63,7 @@ void FrameWriter::write(const DrawnFrame& frame) const {
   if (frame.of.made) record.state = write_state(frame.of.state, *frame.of.made);
   if (record.picture && record.picture->of_state != record.state->sha256) record.picture.reset();
   if (frame.image) {
-    record.picture = write_picture(job.frame, *frame.image);
+    record.picture = write_picture(job.frame, *record.state, *frame.image);
     record.picture->of_state = record.state->sha256;
     record.picture->rendering_seconds = frame.seconds;
     record.picture->writing_seconds = watch.seconds();
@@ -61,9 +79,12 @@ StateRecord FrameWriter::write_state(const sim::State& state, StateRecord record
   return record;
 }
 
-PictureRecord FrameWriter::write_picture(int frame, const render::Image& image) const {
+PictureRecord FrameWriter::write_picture(int frame, const StateRecord& state,
+                                         const render::Image& image) const {
   render::Picture picture = render::tone_map(image, settings_.tone_curve, settings_.exposure);
   draw_color_bars(picture, fields_.bars());
+  draw_caption(picture, caption_text(scene_.caption.text, caption_values(scene_, frame, state)),
+               scene_.caption.place);
   const std::string png = render::encode_png(picture, settings_.png_compression);
   write_file(paths_.picture(frame), png);
   PictureRecord record;

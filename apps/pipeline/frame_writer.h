@@ -7,7 +7,7 @@
 #include "apps/run/identity.h"
 #include "apps/run/paths.h"
 #include "apps/run/record.h"
-#include "render/settings.h"
+#include "apps/scene/scene_desc.h"
 
 namespace lagomorph::apps {
 
@@ -16,17 +16,18 @@ namespace lagomorph::apps {
 class FrameWriter {
 public:
   /// `records` are those of the frames that are there. Makes the folders.
-  FrameWriter(const RunPaths&, const Identity&, const render::RenderSettings&,
-              const std::map<int, FrameRecord>& records, const SurfaceFields&, bool draws);
+  FrameWriter(const RunPaths&, const Identity&, const SceneDesc&, const std::map<int, FrameRecord>& records,
+              const SurfaceFields&, bool draws);
 
   void write(const DrawnFrame&) const;
 
 private:
   StateRecord write_state(const sim::State&, StateRecord) const;
-  PictureRecord write_picture(int frame, const render::Image&) const;
+  PictureRecord write_picture(int frame, const StateRecord&, const render::Image&) const;
 
   const RunPaths& paths_;
   const Identity& identity_;
+  const SceneDesc& scene_;
   const render::RenderSettings& settings_;
   const std::map<int, FrameRecord>& records_;
   const SurfaceFields& fields_;

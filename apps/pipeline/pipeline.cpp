@@ -60,7 +60,7 @@ PipelineResult run_pipeline(const PipelineInput& in, Progress& progress) {
   std::optional<render::Camera> camera;
   if (in.renderer != nullptr) camera.emplace(in.scene.camera, settings.width, settings.height);
   StateSource states(in.scene, in.model, in.integrator, in.paths, in.log_newton);
-  const FrameWriter writer(in.paths, in.identity, settings, in.records, in.fields, camera.has_value());
+  const FrameWriter writer(in.paths, in.identity, in.scene, in.records, in.fields, camera.has_value());
   BoundedQueue<StateFrame> to_draw(frames_between_stages);
   BoundedQueue<DrawnFrame> to_write(frames_between_stages);
   Turns turns(in.threads);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/overlay/caption.h"
 #include "apps/scene/body_keys.h"
 #include "render/color.h"
 #include "render/path/filter.h"
@@ -401,6 +402,15 @@ void visit_sky(SkyDesc& s, KeyVisitor& v) {
         &s.atmosphere.turbidity);
 }
 
+void visit_caption(CaptionDesc& c, KeyVisitor& v) {
+  v.key({.name = "text",
+         .meaning = "written over each picture, with values as {name}, {frame:04}, {frames}, {time:.2f}, "
+                    "{kinetic:.1f}, "
+                    "{elastic}, {gravitational}, {total}, {iterations}, {min_J}; empty: nothing"},
+        &c.text);
+  v.key({.name = "place", .meaning = "where in the picture", .choices = caption_places}, &c.place);
+}
+
 void visit_background(std::optional<render::Color>& color, KeyVisitor& v) {
   v.key({.name = "color",
          .bounds = at_least(0),
@@ -452,6 +462,7 @@ void visit_scene(SceneDesc& s, KeyVisitor& v) {
        .meaning = "a rectangle that shines or a sun; one where the scene names none, none with `light = []`"},
       s.light, visit_light);
   v.one({.name = "sky", .meaning = "light from all around"}, s.sky, visit_sky);
+  v.one({.name = "caption", .meaning = "text over the pictures"}, s.caption, visit_caption);
   v.one({.name = "background", .meaning = "what the camera sees where nothing is"}, s.background,
         visit_background);
 }

@@ -10,6 +10,7 @@
 
 #include "apps/error.h"
 #include "apps/nearest.h"
+#include "apps/overlay/caption.h"
 #include "apps/scene/read.h"
 #include "apps/scene/scene.h"
 #include "apps/utf8.h"
@@ -215,6 +216,11 @@ void check_looks(const SceneDesc& scene, const Places& places) {
     std::string key = path + ".look_at";
     if (!places.has(key)) key = path + ".position";
     wrong_input(fmt::format("{}{}.position and {}.look_at are the same point", places.of(key), path, path));
+  }
+  try {
+    caption_text(scene.caption.text, {});
+  } catch (const Error& e) {
+    wrong_input(fmt::format("{}caption.text: {}", places.of("caption.text"), e.what()));
   }
   std::set<std::string> channels;
   for (const std::string& channel : scene.render.channels) {

@@ -58,6 +58,12 @@ struct SkyDesc : render::Sky {
   render::Atmosphere atmosphere;
 };
 
+/// What is written over the pictures.
+struct CaptionDesc {
+  std::string text;  // see caption_text(); empty: nothing
+  std::string place = "bottom_left";
+};
+
 /// A scene file as plain values, every default filled in. What the file says, not yet what it makes.
 struct SceneDesc {
   std::string name;
@@ -69,6 +75,7 @@ struct SceneDesc {
   render::Ground ground;                    // [ground]
   std::vector<LightDesc> light;             // [[light]]; none in the file: one key light by default
   SkyDesc sky;                              // [sky]
+  CaptionDesc caption;                      // [caption]
   std::optional<render::Color> background;  // [background] color = [r, g, b], linear
   std::filesystem::path directory;          // of the scene file: what relative paths in it are relative to
 };

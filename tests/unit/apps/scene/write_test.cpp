@@ -134,6 +134,7 @@ void settle(sim::MaterialSettings& m, RandomFill& random) {
 
 /// Makes true what keys must hold together.
 void settle(SceneDesc& s, RandomFill& random) {
+  s.caption.text = "{frame:04} \u00e9 'it' # " + std::to_string(random.below(9));
   if (s.body.empty()) {
     s.body.resize(1);
     s.body[0].physics.name = "only";

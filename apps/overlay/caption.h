@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/color.h"
+
+namespace lagomorph::apps {
+
+/// What a frame's caption may tell. Energies in J.
+struct CaptionValues {
+  std::string name;  // of the scene
+  int frame = 0, frames = 1;
+  double time = 0.0;  // [s]
+  double kinetic = 0.0, elastic = 0.0, gravitational = 0.0, total = 0.0;
+  int iterations = 0;  // of Newton's method, for this frame
+  double min_J = 1.0;
+};
+
+/// The text of a form in which {name}, {frame}, {frames}, {time}, {kinetic}, {elastic}, {gravitational},
+/// {total}, {iterations} and {min_J} stand for values, with formats as of Python's str.format ({frame:04},
+/// {time:.2f}). Throws Error(wrong_input) that says what is wrong with the form.
+std::string caption_text(const std::string& form, const CaptionValues&);
+
+/// top_left, top, top_right, bottom_left, bottom, bottom_right.
+std::vector<std::string> caption_places();
+
+/// Writes lines of text on a plate, at a place as above; nothing where the picture is too small.
+void draw_caption(render::Picture&, const std::string& text, const std::string& place);
+
+}  // namespace lagomorph::apps

@@ -1,0 +1,88 @@
+#include "apps/overlay/caption.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "apps/error.h"
+
+namespace lagomorph::apps {
+namespace {
+
+const CaptionValues some = {.name = "bunny",
+                            .frame = 7,
+                            .frames = 150,
+                            .time = 0.23333,
+                            .kinetic = 1.5,
+                            .elastic = 2.25,
+                            .gravitational = -3.0,
+                            .total = 0.75,
+                            .iterations = 4,
+                            .min_J = 0.6};
+
+TEST(Caption, PutsValuesInTheirPlaces) {
+  EXPECT_EQ(caption_text("{name} {frame:04}/{frames}, t = {time:.2f} s", some), "bunny 0007/150, t = 0.23 s");
+  EXPECT_EQ(caption_text("{kinetic} {elastic:.1f} {gravitational} {total} {iterations} {min_J} {{}}", some),
+            "1.5 2.2 -3 0.75 4 0.6 {}");
+  EXPECT_EQ(caption_text("", some), "");
+}
+
+TEST(Caption, TellsWhatIsWrong) {
+  for (const char* form : {"{fram}", "{frame:q}", "{", "}", "{0}", "{}", "{time:04d}"}) {
+    try {
+      caption_text(form, some);
+      FAIL() << form;
+    } catch (const Error& e) {
+      EXPECT_EQ(e.status(), ExitStatus::wrong_input);
+      EXPECT_NE(std::string(e.what()).find("values are {name}, {frame}"), std::string::npos) << e.what();
+    }
+  }
+}
+
+/// Columns and rows of what differs from the plain picture.
+struct Drawn {
+  int left, right, top, bottom;
+};
+Drawn drawn(const std::string& text, const std::string& place, int width = 320, int height = 180) {
+  const render::Picture plain{width, height,
+                              std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width * height), 128)};
+  render::Picture picture = plain;
+  draw_caption(picture, text, place);
+  Drawn d{width, -1, height, -1};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto at = static_cast<std::size_t>(3 * (y * width + x));
+      if (picture.rgb[at] == plain.rgb[at]) continue;
+      d = {std::min(d.left, x), std::max(d.right, x), std::min(d.top, y), std::max(d.bottom, y)};
+    }
+  }
+  return d;
+}
+
+TEST(Caption, StandsWhereItIsToStand) {
+  for (const std::string& place : caption_places()) {
+    const Drawn d = drawn("frame 7", place);
+    ASSERT_GT(d.right, d.left) << place;
+    EXPECT_EQ(d.bottom < 90, place.starts_with("top")) << place;
+    EXPECT_EQ(d.right < 160, place.ends_with("left")) << place;
+    EXPECT_EQ(d.left > 160, place.ends_with("right")) << place;
+    EXPECT_GT(d.top, 2);
+    EXPECT_LT(d.bottom, 178);
+  }
+  const Drawn one = drawn("frame 7", "top"), two = drawn("frame 7\nt = 1 s", "top");
+  EXPECT_GT(two.bottom - two.top, one.bottom - one.top + 6);
+}
+
+TEST(Caption, KeepsItsPlateWhileDigitsChange) {
+  const Drawn one = drawn("frame 111", "bottom_left"), two = drawn("frame 888", "bottom_left");
+  EXPECT_EQ(one.right, two.right);
+}
+
+TEST(Caption, IsNotDrawnWhereThereIsNoRoom) {
+  EXPECT_EQ(drawn("", "top").right, -1);
+  EXPECT_EQ(drawn(std::string(400, 'x'), "top").right, -1);
+  EXPECT_EQ(drawn("frame 7", "top", 20, 8).right, -1);
+}
+
+}  // namespace
+}  // namespace lagomorph::apps
