@@ -33,7 +33,7 @@ TEST(Caption, TellsWhatIsWrong) {
       caption_text(form, some);
       FAIL() << form;
     } catch (const Error& e) {
-      EXPECT_EQ(e.status(), ExitStatus::wrong_input);
+      EXPECT_EQ(e.status, ExitStatus::wrong_input);
       EXPECT_NE(std::string(e.what()).find("values are {name}, {frame}"), std::string::npos) << e.what();
     }
   }
