@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "apps/scene/body_keys.h"
+#include "apps/scene/look_keys.h"
 #include "render/color.h"
 #include "render/path/filter.h"
 #include "render/renderer.h"
@@ -81,21 +82,6 @@ void visit_solver(sim::SolverSettings& s, KeyVisitor& v) {
          .part = simulation,
          .meaning = "threads of OpenBLAS inside CHOLMOD; part of the result's bits, so of the scene"},
         &s.blas_threads);
-}
-
-void visit_look(render::Material& m, KeyVisitor& v) {
-  v.key({.name = "base_color",
-         .bounds = between(0, 1),
-         .meaning = "linear RGB: diffuse albedo, or a metal's reflectance at normal incidence"},
-        &m.base_color);
-  v.key({.name = "roughness", .bounds = between(0, 1), .meaning = "perceptual; GGX alpha is its square"},
-        &m.roughness);
-  v.key({.name = "metallic",
-         .bounds = between(0, 1),
-         .meaning = "0 a dielectric over a diffuse base, 1 a metal"},
-        &m.metallic);
-  v.key({.name = "ior", .bounds = between(1, 10), .meaning = "index of refraction of the dielectric"},
-        &m.ior);
 }
 
 void visit_surface(SurfaceDesc& s, KeyVisitor& v) {
@@ -179,7 +165,7 @@ void visit_body(BodyDesc& b, KeyVisitor& v) {
   v.one({.name = "damping", .meaning = "what takes energy out of its motion", .is_inline = true}, p.damping,
         visit_damping);
   v.one({.name = "surface", .meaning = "what of the body is drawn"}, b.surface, visit_surface);
-  v.one({.name = "look", .meaning = "how the body is drawn"}, b.look, visit_look);
+  v.one({.name = "look", .meaning = "how the body is drawn"}, b.look, visit_body_look);
   v.list(
       {.name = "pin",
        .meaning = "vertices held where they are at the start, or driven; several selectors select the union"},
@@ -231,6 +217,15 @@ void visit_raster(render::RasterSettings& r, KeyVisitor& v) {
 void visit_path(render::PathSettings& p, KeyVisitor& v) {
   v.key({.name = "bounces", .bounds = between(0, 64), .meaning = "indirect bounces after the first hit"},
         &p.bounces);
+  v.key({.name = "transmission_bounces",
+         .bounds = between(0, 256),
+         .meaning = "further ones through or off the inside of clear bodies"},
+        &p.transmission_bounces);
+  v.key({.name = "clamp",
+         .unit = "W/(sr m^2)",
+         .bounds = at_least(0),
+         .meaning = "most that a path brings of indirect light, against fireflies; 0: all of it"},
+        &p.clamp);
   v.key({.name = "seed", .meaning = "of the sample sequence"}, &p.seed);
   v.key({.name = "filter", .meaning = "pixel reconstruction", .choices = render::path::filter_names},
         &p.filter);

@@ -30,7 +30,7 @@ float smith_root(const Vec3& w, float alpha) {
 
 }  // namespace
 
-Brdf::Brdf(const Material& m) {
+Brdf::Brdf(const Material& m, float base_share) {
   const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
   coat_f0_ = r * r;
   coat_f90_ = std::min(1.0F, 50.0F * coat_f0_);
@@ -44,7 +44,8 @@ Brdf::Brdf(const Material& m) {
     a = coat_albedo(cosine, m.roughness);
     mean += 2.0F * into_base(a) * cosine * (i == intervals ? 0.5F : 1.0F) / intervals;
   }
-  base_ = (1.0F - m.metallic) * inv_pi / mean * m.base_color;
+  mean_let_in_ = mean;
+  base_ = (1.0F - m.metallic) * inv_pi / mean * m.base_color * base_share;
 }
 
 CoatAlbedo Brdf::albedo(float cosine) const {
@@ -62,7 +63,7 @@ Brdf::View Brdf::view(const Vec3& wo, float least_alpha) const {
   const float coat = luminance(f0_) * a.scale + f90_ * a.offset;
   const float all = coat + std::numbers::pi_v<float> * luminance(base);
   const float alpha = std::max(alpha_, least_alpha);
-  return {wo, base, all > 0.0F ? coat / all : 0.0F, alpha, smith_root(wo, alpha)};
+  return {wo, base, all > 0.0F ? coat / all : 0.0F, alpha, smith_root(wo, alpha), all};
 }
 
 Brdf::Value Brdf::evaluate(const View& view, const Vec3& wi) const {

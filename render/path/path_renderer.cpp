@@ -34,6 +34,8 @@ public:
         arena_(std::clamp(threads, 1, tbb::info::default_concurrency())) {
     check_range("render.samples", settings.samples, 1, 65536);
     check_range("render.path.bounces", settings.path.bounces, 0, 64);
+    check_range("render.path.transmission_bounces", settings.path.transmission_bounces, 0, 256);
+    if (!(settings.path.clamp >= 0.0F)) throw SettingsError("render.path.clamp must be >= 0");
   }
 
   std::string_view name() const override { return "path"; }
@@ -107,8 +109,7 @@ private:
   void draw_color(const Camera& camera, int frame, std::vector<float>& color, float* statistics) const {
     const path::FrameSamples numbers(settings_.path.seed, frame, settings_.samples);
     tbb::enumerable_thread_specific<path::PathTracer> tracers([&] {
-      return path::PathTracer(*geometry_, *shading_, camera, filter_, settings_.samples,
-                              settings_.path.bounces);
+      return path::PathTracer(*geometry_, *shading_, camera, filter_, settings_.samples, settings_.path);
     });
     for_tiles(camera, [&](const path::Tile& tile) {
       std::optional<path::TileStatistics> cells;

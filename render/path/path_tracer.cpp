@@ -23,6 +23,10 @@ constexpr std::uint32_t sky_dimension = 1;
 constexpr std::uint32_t choice_dimension = 2;   // u: roulette, v: which light
 constexpr std::uint32_t through_dimension = 3;  // u: ground or what lies behind it
 constexpr std::uint32_t light_dimension = 4;    // and the three after it
+constexpr std::uint32_t lobe_dimension = 10;
+constexpr std::uint32_t clear_dimension = 11;  // of the dielectric's choices
+constexpr std::uint32_t entry_dimension = 12;  // u: into the cloudy inside or not
+constexpr float unseen = 1e18F;  // density of a direction that next-event estimation never takes: it weighs 1
 
 std::uint32_t dimension(std::uint32_t depth, std::uint32_t name) {
   return surface_dimensions * (depth + 1) + name;
@@ -52,13 +56,15 @@ Shading::Shading(const RenderScene& scene)
 }
 
 PathTracer::PathTracer(const SceneGeometry& geometry, const Shading& shading, const Camera& camera,
-                       const PixelFilter& filter, int samples, int bounces)
+                       const PixelFilter& filter, int samples, const PathSettings& settings)
     : geometry_(geometry),
       shading_(shading),
       camera_(camera),
       filter_(filter),
       samples_(static_cast<std::uint32_t>(samples)),
-      bounces_(static_cast<std::uint32_t>(bounces)) {
+      bounces_(static_cast<std::uint32_t>(settings.bounces)),
+      clear_bounces_(static_cast<std::uint32_t>(settings.transmission_bounces)),
+      clamp_(settings.clamp) {
   rays_.reserve(batch_size);
   paths_.reserve(batch_size);
   hits_.reserve(batch_size);
@@ -113,10 +119,12 @@ void PathTracer::trace(const Tile& tile, const FrameSamples& numbers, float* col
 void PathTracer::trace_batch(std::uint32_t depth) {
   hits_.resize(rays_.size());
   geometry_.caster().intersect(rays_, depth == 0 ? Coherence::coherent : Coherence::incoherent, hits_);
+  if (depth == 0) indirect_.assign(radiance_.size(), 0);
   arrive(depth);
+  leave_cloudy_insides();
   rays_.clear();
   paths_.clear();
-  if (depth > bounces_) return;
+  if (vertices_.empty()) return;
   gather_lights(depth);
   gather_sky(depth);
   scatter(depth);
@@ -127,11 +135,11 @@ void PathTracer::arrive(std::uint32_t depth) {
   vertices_.clear();
   for (std::size_t i = 0; i < rays_.size(); ++i) {
     const Ray& ray = rays_[i];
-    const Path& path = paths_[i];
+    Path& path = paths_[i];
     Ahead ahead = look(ray, hits_[i]);
-    radiance_[path.lane] +=
-        depth == 0 ? seen_by_camera(ray, ahead) : path.throughput * light_met(ray, path, depth - 1, ahead);
-    if (depth > bounces_) continue;
+    add_light(path.lane, depth == 0 ? seen_by_camera(ray, ahead)
+                                    : path.throughput * light_met(ray, path, depth - 1, ahead));
+    if (depth > bounces_ + path.clear) continue;
     float share = 1.0F;
     if (ahead.ground < SceneGeometry::never) {
       // A fading ground before a mesh: the path takes one of them. Before the sky, whose light is added
@@ -143,11 +151,14 @@ void PathTracer::arrive(std::uint32_t depth) {
         ahead.ground = SceneGeometry::never;
       }
     }
+    path.throughput *= let_through(path, ray, hits_[i], ahead);
+    indirect_[path.lane] = depth > path.clear ? 1 : 0;
     if (ahead.ground < SceneGeometry::never) {
       begin_vertex(geometry_.arrive_at_ground(ray, ahead.ground), ray, path, shading_.ground_brdf(), share);
     } else if (ahead.on_mesh) {
-      begin_vertex(geometry_.arrive(ray, hits_[i], ahead.mesh), ray, path, shading_.brdfs[hits_[i].mesh],
-                   1.0F);
+      const SurfacePoint at = geometry_.arrive(ray, hits_[i], ahead.mesh);
+      begin_vertex(at, ray, path, shading_.brdfs[hits_[i].mesh], 1.0F);
+      if (!at.inside && vertices_.back().brdf->is_cloudy()) enter_cloudy_inside(ray, hits_[i], at.beyond, depth);
     }
   }
 }
@@ -207,11 +218,13 @@ Color PathTracer::light_met(const Ray& ray, const Path& path, std::uint32_t from
   return light;
 }
 
-void PathTracer::begin_vertex(const SurfacePoint& at, const Ray& ray, const Path& path, const Brdf& brdf,
+void PathTracer::begin_vertex(const SurfacePoint& at, const Ray& ray, const Path& path, const Bsdf& brdf,
                               float share) {
   Vertex& v = vertices_.emplace_back();
-  v.origin = at.origin;
-  v.n = at.normal;
+  const bool turned = at.inside && brdf.transmits();
+  v.origin = turned ? at.beyond : at.origin;
+  v.below = turned ? at.origin : at.beyond;
+  v.n = turned ? Vec3(-at.normal) : at.normal;
   make_frame(v.n, v.t, v.b);
   v.brdf = &brdf;
   const float least_alpha = path.least_pdf < 1.0F ? 0.5F * std::sqrt(1.0F - path.least_pdf) : 0.0F;
@@ -221,6 +234,66 @@ void PathTracer::begin_vertex(const SurfacePoint& at, const Ray& ray, const Path
   v.least_pdf = path.least_pdf;
   v.lane = path.lane;
   v.samples = path.samples;
+  v.inside = path.inside;
+  v.clear = path.clear;
+  v.compressed = path.compressed;
+}
+
+void PathTracer::add_light(std::uint32_t lane, const Color& light) {
+  const float most = light.maxCoeff();
+  const bool cut = clamp_ > 0.0F && indirect_[lane] != 0 && most > clamp_;
+  radiance_[lane] += cut ? Color(clamp_ / most * light) : light;
+}
+
+/// What a clear inside leaves of the light between the path's last surface and its next. A ray that has come
+/// to a back side without having gone in, as from an eye within a body, was in that body.
+Color PathTracer::let_through(const Path& path, const Ray& ray, const MeshHit& hit,
+                              const Ahead& ahead) const {
+  const double distance = std::min(ahead.mesh.t, ahead.ground);
+  const Absorption* inside = path.inside;
+  if (inside == nullptr && ahead.on_mesh && ahead.mesh.t < ahead.ground) {
+    const Bsdf& bsdf = shading_.brdfs[hit.mesh];
+    if (bsdf.transmits() && geometry_.is_behind(ray, hit)) inside = &bsdf.absorption();
+  }
+  if (inside == nullptr || inside->is_clear() || distance == SceneGeometry::never) return Color::Ones();
+  return inside->transmittance(static_cast<float>(distance));
+}
+
+/// Turns the last vertex into a walk in its body, or leaves what light does without entering.
+void PathTracer::enter_cloudy_inside(const Ray& ray, const MeshHit& hit, const Vec3& from, std::uint32_t depth) {
+  Vertex& v = vertices_.back();
+  const Bsdf::Entry entry = v.brdf->entry(v.view);
+  if (entry.pick <= 0.0F) return;
+  const float u = v.samples.pair(dimension(depth, entry_dimension)).u;
+  if (u >= entry.pick) {
+    v.throughput /= 1.0F - entry.pick;
+    return;
+  }
+  const Vec3 into = sample_cosine(v.samples.pair(dimension(depth, scatter_dimension)));
+  Ray inward = ray;
+  inward.origin = from;
+  inward.direction = into.x() * v.t + into.y() * v.b - into.z() * v.n;
+  walks_.begin(inward, hit.mesh, v.brdf->cloudy_inside(), v.samples, depth);
+  v.throughput *= entry.part / entry.pick;
+  entered_.push_back(v);
+  vertices_.pop_back();
+}
+
+/// Where the walks come out, paths are at a surface that only lets light out.
+void PathTracer::leave_cloudy_insides() {
+  if (entered_.empty()) return;
+  const std::vector<RandomWalk::Exit>& exits = walks_.finish(geometry_);
+  for (std::size_t i = 0; i < entered_.size(); ++i) {
+    if (!exits[i].found) continue;
+    Vertex& v = vertices_.emplace_back(entered_[i]);
+    v.origin = exits[i].origin;
+    v.n = exits[i].normal;
+    make_frame(v.n, v.t, v.b);
+    v.view = v.brdf->emerging_view();
+    v.throughput *= exits[i].weight;
+    v.least_pdf = std::min(v.least_pdf, inv_pi);
+  }
+  entered_.clear();
 }
 
 bool PathTracer::all_lights_at(std::uint32_t depth) const {
@@ -297,7 +370,7 @@ void PathTracer::trace_shadows(Coherence coherence) {
   blocked_.resize(shadow_rays_.size());
   geometry_.caster().occluded(shadow_rays_, shadow_distances_, coherence, blocked_);
   for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
-    if (blocked_[i] == 0) radiance_[shadow_lanes_[i]] += shadow_light_[i];
+    if (blocked_[i] == 0) add_light(shadow_lanes_[i], shadow_light_[i]);
   }
   shadow_rays_.clear();
   shadow_distances_.clear();
@@ -305,22 +378,38 @@ void PathTracer::trace_shadows(Coherence coherence) {
   shadow_lanes_.clear();
 }
 
-/// The next rays, by the BRDF; dim paths end by Russian roulette.
+/// The next rays, by the BSDF; dim paths end by Russian roulette.
 void PathTracer::scatter(std::uint32_t depth) {
   for (const Vertex& v : vertices_) {
-    const Brdf::Sample s = v.brdf->sample(v.view, v.samples.pair(dimension(depth, scatter_dimension)));
+    const auto pair = [&](std::uint32_t name) { return v.samples.pair(dimension(depth, name)); };
+    const bool layers = v.brdf->has_layers();
+    const Bsdf::Sample s = v.brdf->sample(v.view, pair(scatter_dimension), layers ? pair(lobe_dimension) : Pair{},
+                                          layers ? pair(clear_dimension) : Pair{});
     if (s.value.pdf <= 0.0F) continue;
     Color throughput = v.throughput * s.value.f_cos / s.value.pdf;
-    const float bright = throughput.maxCoeff();
+    const Vec3& wi = s.direction;
+    const float compressed = layers && !v.view.emerging
+                                 ? v.compressed / v.brdf->index_squared(v.view.wo, wi)
+                                 : v.compressed;
+    const float bright = throughput.maxCoeff() / compressed;
     if (bright <= 0.0F) continue;
     if (depth >= roulette_depth && bright < 1.0F) {
-      if (v.samples.pair(dimension(depth, choice_dimension)).u >= bright) continue;
+      if (pair(choice_dimension).u >= bright) continue;
       throughput /= bright;
     }
-    const Vec3& wi = s.direction;
-    rays_.push_back({v.origin, wi.x() * v.t + wi.y() * v.b + wi.z() * v.n});
-    paths_.push_back(
-        {throughput, s.value.pdf, wi.z() * inv_pi, std::min(v.least_pdf, s.value.pdf), v.lane, v.samples});
+    const bool below = wi.z() < 0.0F;
+    rays_.push_back({below ? v.below : v.origin, wi.x() * v.t + wi.y() * v.b + wi.z() * v.n});
+    Path& path = paths_.emplace_back();
+    path.throughput = throughput;
+    path.bsdf_pdf = below ? unseen : s.value.pdf;
+    path.sky_pdf = wi.z() * inv_pi;
+    path.least_pdf = std::min(v.least_pdf, s.value.pdf);
+    path.lane = v.lane;
+    path.samples = v.samples;
+    path.inside = v.inside;
+    if (v.brdf->transmits()) path.inside = below ? &v.brdf->absorption() : nullptr;
+    path.clear = s.clear ? std::min(v.clear + 1, clear_bounces_) : v.clear;
+    path.compressed = compressed;
   }
 }
 

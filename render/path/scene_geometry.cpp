@@ -34,7 +34,8 @@ SceneGeometry::SceneGeometry(const RenderScene& scene) : ground_(scene.ground) {
   meshes_.reserve(scene.meshes.size());
   for (const Mesh& m : scene.meshes) {
     meshes_.push_back(
-        {m.triangles, m.positions, {}, VertexNormals(m.triangles, m.positions.size()), m.smooth, true});
+        {m.triangles, m.positions, {}, VertexNormals(m.triangles, m.positions.size()), m.smooth, true,
+         m.material.transmission > 0.0F || m.material.subsurface > 0.0F});
   }
   caster_.build(scene.meshes);
 }
@@ -90,6 +91,7 @@ SurfacePoint SceneGeometry::arrive(const Ray& ray, const MeshHit& hit, const Tri
 
   Vec3 shading = flat;
   Vec3 start = p;
+  Vec3 start_beyond = p;
   if (m.smooth) {
     const Vec3 n[3] = {side * m.normals[triangle[0]], side * m.normals[triangle[1]],
                        side * m.normals[triangle[2]]};
@@ -100,12 +102,27 @@ SurfacePoint SceneGeometry::arrive(const Ray& ray, const MeshHit& hit, const Tri
     if (length > 0.0F && sum.dot(flat) > 0.0F) {
       shading = sum / length;
       start = smooth_point(p, x, n, weight);
+      if (m.has_inside) {
+        const Vec3 back[3] = {-n[0], -n[1], -n[2]};
+        start_beyond = smooth_point(p, x, back, weight);
+      }
     }
   }
   Vec3 origin = offset_along(start, flat);
   // A body that stands on the ground is not lit through it.
-  if (ground_.enabled && p.y() >= ground_.height) origin.y() = std::max(origin.y(), ground_.height);
-  return {origin, facing(shading, wo)};
+  Vec3 beyond = offset_along(start_beyond, -flat);
+  if (ground_.enabled && p.y() >= ground_.height) {
+    origin.y() = std::max(origin.y(), ground_.height);
+    beyond.y() = std::max(beyond.y(), ground_.height);
+  }
+  return {origin, facing(shading, wo), beyond, side < 0.0F};
+}
+
+bool SceneGeometry::is_behind(const Ray& ray, const MeshHit& hit) const {
+  const Moving& m = meshes_[hit.mesh];
+  const Triangle& t = m.triangles[hit.triangle];
+  const Vec3& a = m.positions[t[0]];
+  return (m.positions[t[1]] - a).cross(m.positions[t[2]] - a).dot(ray.direction) > 0.0F;
 }
 
 double SceneGeometry::meet_ground(const Ray& ray) const {

@@ -16,6 +16,8 @@ struct SurfacePoint {
   Vec3 origin;  // of rays that go on: off the surface on the side of the arrival, so that they do not meet it
                 // again
   Vec3 normal;  // unit shading normal, on the side of the arrival
+  Vec3 beyond = Vec3::Zero();  // of rays that go through, where the mesh's material lets any
+  bool inside = false;         // the arrival is from the back of its triangle
 };
 
 /// The meshes and the ground as a ray sees them: what the hierarchy's answers mean in space.
@@ -39,6 +41,9 @@ public:
   /// The surface at a hit.
   SurfacePoint arrive(const Ray&, const MeshHit&, const TriangleHit&) const;
 
+  /// Whether a ray comes to a hit from the back of its triangle.
+  bool is_behind(const Ray&, const MeshHit&) const;
+
   static constexpr double never = std::numeric_limits<double>::infinity();
   /// Distance to the ground's disc, from either side; `never` where a ray misses it.
   double meet_ground(const Ray&) const;
@@ -54,6 +59,7 @@ private:
     VertexNormals topology;
     bool smooth;
     bool moved;
+    bool has_inside;  // rays go through
   };
   std::vector<Moving> meshes_;
   Ground ground_;
