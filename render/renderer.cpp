@@ -2,6 +2,7 @@
 
 #include "render/backends.h"
 #include "render/error.h"
+#include "render/raster/optics_stand_in.h"
 
 namespace lagomorph::render {
 namespace {
@@ -49,6 +50,21 @@ std::unique_ptr<Renderer> make_renderer(const RenderSettings& settings, int thre
   }
   throw SettingsError("render.backend: unknown back end '" + settings.backend + "'; known are " +
                       joined(renderer_names()));
+}
+
+std::vector<std::string> renderer_remarks(const RenderSettings& settings, const CameraSettings& /*camera*/,
+                                          const RenderScene& scene) {
+  std::vector<std::string> remarks;
+  if (settings.backend == "raster") remarks = raster::optics_remarks(scene);
+  if (settings.backend == "path" && settings.path.clamp > 0.0F) {
+    std::string value = std::to_string(settings.path.clamp);
+    value.erase(value.find_last_not_of('0') + 1);
+    if (value.back() == '.') value.pop_back();
+    remarks.push_back("render.path.clamp = " + value +
+                      ": indirect light above it is cut, so that pictures are somewhat too dark");
+  }
+  for (std::string& remark : remarks) remark = settings.backend + ": " + remark;
+  return remarks;
 }
 
 }  // namespace lagomorph::render

@@ -42,4 +42,7 @@ std::vector<std::string> renderer_names();  // raster, path, null
 /// cannot.
 std::unique_ptr<Renderer> make_renderer(const RenderSettings&, int threads);
 
+/// What the settings' back end draws otherwise than they and the scene say, a line each.
+std::vector<std::string> renderer_remarks(const RenderSettings&, const CameraSettings&, const RenderScene&);
+
 }  // namespace lagomorph::render

@@ -102,7 +102,12 @@ void prepare_folder(Production& p, RunInfo& info) {
 std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress& progress) {
   const sim::Model model = build_model(p.scene, progress);
   const std::vector<sim::Surface> surfaces = build_surfaces(p.scene, model, progress);
-  if (p.renderer) p.renderer->set_scene(build_render_scene(p.scene, model, surfaces));
+  if (p.renderer) {
+    const render::RenderScene drawn = build_render_scene(p.scene, model, surfaces);
+    for (const std::string& remark : render::renderer_remarks(p.scene.render, p.scene.camera, drawn))
+      progress.note(remark);
+    p.renderer->set_scene(drawn);
+  }
   const auto integrator = sim::make_integrator(p.scene.time, p.scene.solver, model);
   const ExpectedSize size =
       expected_size(p.jobs, model.mesh().vertex_count(), 1 + integrator->history_levels(), p.scene.render);

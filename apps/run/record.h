@@ -34,6 +34,7 @@ struct PictureRecord {
   std::string made_by;                          // Identity::picture of the run that drew it
   std::string of_state;                         // sha256 of the state that it shows
   std::map<std::string, std::string> channels;  // sha256 by the channel's name
+  double clamp = 0.0;  // render.path.clamp where it cut indirect light; 0: nothing did
   double rendering_seconds = 0.0;
   double writing_seconds = 0.0;  // tone curve, encoding, files
 };

@@ -45,8 +45,8 @@ public:
 
   /// Part of the light along a cosine that passes the dielectric coat to its base.
   float let_in(float cosine) const { return into_base(albedo(cosine)); }
-  /// Likewise of light that is spread as the cosine below, with what the coat reflects back to the base coming
-  /// again: 1 in the cosine's mean.
+  /// Likewise of light that is spread as the cosine below, with what the coat reflects back to the base
+  /// coming again: 1 in the cosine's mean.
   float let_out(float cosine) const { return let_in(cosine) / mean_let_in_; }
   /// Estimate of the luminance reflected of all that arrives.
   float reflectance(const View& v) const { return v.reflectance; }

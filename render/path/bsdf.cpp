@@ -43,7 +43,9 @@ struct Bsdf::Layers {
   float under_coat(float cosine) const {
     return coat > 0.0F ? 1.0F - coat * (1.0F - coat_lobe.let_in(cosine)) : 1.0F;
   }
-  float under_sheen(float cosine) const { return sheen > 0.0F ? 1.0F - sheen * sheen_lobe.albedo(cosine) : 1.0F; }
+  float under_sheen(float cosine) const {
+    return sheen > 0.0F ? 1.0F - sheen * sheen_lobe.albedo(cosine) : 1.0F;
+  }
   float under(float cosine) const { return cosine > 0.0F ? under_coat(cosine) * under_sheen(cosine) : 1.0F; }
 
   float transmission, cloudy, coat;
@@ -61,7 +63,8 @@ Bsdf::Bsdf(const Material& m)
     : brdf_(opaque_part(m), 1.0F - m.subsurface),
       transmits_(m.transmission * (1.0F - m.metallic) > 0.0F),
       is_cloudy_(m.subsurface > 0.0F && m.metallic < 1.0F && m.transmission < 1.0F) {
-  if (transmits_ || is_cloudy_ || m.coat > 0.0F || m.sheen > 0.0F) layers_ = std::make_unique<const Layers>(m);
+  if (transmits_ || is_cloudy_ || m.coat > 0.0F || m.sheen > 0.0F)
+    layers_ = std::make_unique<const Layers>(m);
 }
 
 Bsdf::Bsdf(Bsdf&&) noexcept = default;

@@ -46,8 +46,8 @@ public:
   }
   struct Sample {
     Vec3 direction;
-    Brdf::Value value;    // pdf = 0: no direction, the path ends
-    bool clear = false;   // by the dielectric
+    Brdf::Value value;   // pdf = 0: no direction, the path ends
+    bool clear = false;  // by the dielectric
   };
   /// `lobe` and `choice` only matter with layers.
   Sample sample(const View&, Pair direction, Pair lobe, Pair choice) const;

@@ -172,7 +172,8 @@ Brdf::Value Dielectric::scatter_often(const View& view, const Vec3& wi) const {
   const float pdf = share * cosine * inv_pi;
   const float n = outside ? ior_ : 1.0F / ior_;
   const float scale = back ? 1.0F : 1.0F / (n * n);
-  return {Color::Constant(view.lost * pdf * lost(side, cosine, view.level) / view.mean_lost[side] * scale), pdf};
+  return {Color::Constant(view.lost * pdf * lost(side, cosine, view.level) / view.mean_lost[side] * scale),
+          pdf};
 }
 
 Brdf::Value Dielectric::evaluate(const View& view, const Vec3& wi) const {

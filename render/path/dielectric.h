@@ -29,8 +29,8 @@ public:
   struct View {
     Vec3 wo;
     float alpha;
-    float level;  // in the tables of lost light
-    float lost;   // L(wo)
+    float level;                     // in the tables of lost light
+    float lost;                      // L(wo)
     std::array<float, 2> mean_lost;  // of outside, inside
     float multiple_through;          // T from wo's side
   };
@@ -57,7 +57,7 @@ private:
   float ior_;
   float alpha_;
   float through_;  // part of diffuse light from outside that enters a smooth interface
-  std::array<std::array<Table, levels>, 2> lost_;      // [outside, inside][level]
+  std::array<std::array<Table, levels>, 2> lost_;       // [outside, inside][level]
   std::array<std::array<float, levels>, 2> mean_lost_;  // 2 int L c dc
 };
 

@@ -158,7 +158,8 @@ void PathTracer::arrive(std::uint32_t depth) {
     } else if (ahead.on_mesh) {
       const SurfacePoint at = geometry_.arrive(ray, hits_[i], ahead.mesh);
       begin_vertex(at, ray, path, shading_.brdfs[hits_[i].mesh], 1.0F);
-      if (!at.inside && vertices_.back().brdf->is_cloudy()) enter_cloudy_inside(ray, hits_[i], at.beyond, depth);
+      if (!at.inside && vertices_.back().brdf->is_cloudy())
+        enter_cloudy_inside(ray, hits_[i], at.beyond, depth);
     }
   }
 }
@@ -260,7 +261,8 @@ Color PathTracer::let_through(const Path& path, const Ray& ray, const MeshHit& h
 }
 
 /// Turns the last vertex into a walk in its body, or leaves what light does without entering.
-void PathTracer::enter_cloudy_inside(const Ray& ray, const MeshHit& hit, const Vec3& from, std::uint32_t depth) {
+void PathTracer::enter_cloudy_inside(const Ray& ray, const MeshHit& hit, const Vec3& from,
+                                     std::uint32_t depth) {
   Vertex& v = vertices_.back();
   const Bsdf::Entry entry = v.brdf->entry(v.view);
   if (entry.pick <= 0.0F) return;
@@ -383,14 +385,14 @@ void PathTracer::scatter(std::uint32_t depth) {
   for (const Vertex& v : vertices_) {
     const auto pair = [&](std::uint32_t name) { return v.samples.pair(dimension(depth, name)); };
     const bool layers = v.brdf->has_layers();
-    const Bsdf::Sample s = v.brdf->sample(v.view, pair(scatter_dimension), layers ? pair(lobe_dimension) : Pair{},
-                                          layers ? pair(clear_dimension) : Pair{});
+    const Bsdf::Sample s =
+        v.brdf->sample(v.view, pair(scatter_dimension), layers ? pair(lobe_dimension) : Pair{},
+                       layers ? pair(clear_dimension) : Pair{});
     if (s.value.pdf <= 0.0F) continue;
     Color throughput = v.throughput * s.value.f_cos / s.value.pdf;
     const Vec3& wi = s.direction;
-    const float compressed = layers && !v.view.emerging
-                                 ? v.compressed / v.brdf->index_squared(v.view.wo, wi)
-                                 : v.compressed;
+    const float compressed =
+        layers && !v.view.emerging ? v.compressed / v.brdf->index_squared(v.view.wo, wi) : v.compressed;
     const float bright = throughput.maxCoeff() / compressed;
     if (bright <= 0.0F) continue;
     if (depth >= roulette_depth && bright < 1.0F) {

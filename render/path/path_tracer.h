@@ -43,9 +43,9 @@ struct Tile {
 /// dim paths are ended by Russian roulette. The lights are no obstacle; one that is visible is opaque to the
 /// camera.
 ///
-/// Clear insides: shadow rays do not pass them, light behind is found by the scattered ray alone. From inside,
-/// what the surface lets out is estimated like any other light. Cloudy insides: a path that enters one goes on
-/// where its random walk leaves the body, as if it had arrived there.
+/// Clear insides: shadow rays do not pass them, light behind is found by the scattered ray alone. From
+/// inside, what the surface lets out is estimated like any other light. Cloudy insides: a path that enters
+/// one goes on where its random walk leaves the body, as if it had arrived there.
 class PathTracer {
 public:
   PathTracer(const SceneGeometry&, const Shading&, const Camera&, const PixelFilter&, int samples,

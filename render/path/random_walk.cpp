@@ -24,8 +24,8 @@ Vec3 uniform_direction(Pair s) {
 void RandomWalk::begin(const Ray& from, std::uint32_t mesh, const CloudyInside& inside,
                        const PathSamples& samples, std::uint32_t depth) {
   rays_.push_back(from);
-  walks_.push_back({&inside, samples, Color::Ones(), mesh, begun_++,
-                    first_dimension + depth * dimensions_of_a_walk, 0});
+  walks_.push_back(
+      {&inside, samples, Color::Ones(), mesh, begun_++, first_dimension + depth * dimensions_of_a_walk, 0});
 }
 
 const std::vector<RandomWalk::Exit>& RandomWalk::finish(const SceneGeometry& geometry) {

@@ -18,7 +18,8 @@ namespace lagomorph::render::path {
 class RandomWalk {
 public:
   /// `from` begins inside of its mesh.
-  void begin(const Ray& from, std::uint32_t mesh, const CloudyInside&, const PathSamples&, std::uint32_t depth);
+  void begin(const Ray& from, std::uint32_t mesh, const CloudyInside&, const PathSamples&,
+             std::uint32_t depth);
 
   struct Exit {
     bool found = false;

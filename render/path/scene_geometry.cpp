@@ -33,9 +33,13 @@ Vec3 facing(const Vec3& n, const Vec3& wo) {
 SceneGeometry::SceneGeometry(const RenderScene& scene) : ground_(scene.ground) {
   meshes_.reserve(scene.meshes.size());
   for (const Mesh& m : scene.meshes) {
-    meshes_.push_back(
-        {m.triangles, m.positions, {}, VertexNormals(m.triangles, m.positions.size()), m.smooth, true,
-         m.material.transmission > 0.0F || m.material.subsurface > 0.0F});
+    meshes_.push_back({m.triangles,
+                       m.positions,
+                       {},
+                       VertexNormals(m.triangles, m.positions.size()),
+                       m.smooth,
+                       true,
+                       m.material.transmission > 0.0F || m.material.subsurface > 0.0F});
   }
   caster_.build(scene.meshes);
 }
