@@ -151,15 +151,18 @@ void PathTracer::arrive(std::uint32_t depth) {
         ahead.ground = SceneGeometry::never;
       }
     }
-    path.throughput *= let_through(path, ray, hits_[i], ahead);
     indirect_[path.lane] = depth > path.clear ? 1 : 0;
     if (ahead.ground < SceneGeometry::never) {
+      absorb(path, path.inside, ahead.ground);
       begin_vertex(geometry_.arrive_at_ground(ray, ahead.ground), ray, path, shading_.ground_brdf(), share);
     } else if (ahead.on_mesh) {
       const SurfacePoint at = geometry_.arrive(ray, hits_[i], ahead.mesh);
-      begin_vertex(at, ray, path, shading_.brdfs[hits_[i].mesh], 1.0F);
-      if (!at.inside && vertices_.back().brdf->is_cloudy())
-        enter_cloudy_inside(ray, hits_[i], at.beyond, depth);
+      const Bsdf& bsdf = shading_.brdfs[hits_[i].mesh];
+      // A ray that comes to a back side without having gone in, as from an eye within a body, was in it.
+      const bool from_within = path.inside == nullptr && at.inside && bsdf.transmits();
+      absorb(path, from_within ? &bsdf.absorption() : path.inside, ahead.mesh.t);
+      begin_vertex(at, ray, path, bsdf, 1.0F);
+      if (!at.inside && bsdf.is_cloudy()) enter_cloudy_inside(ray, hits_[i], at.beyond, depth);
     }
   }
 }
@@ -246,18 +249,10 @@ void PathTracer::add_light(std::uint32_t lane, const Color& light) {
   radiance_[lane] += cut ? Color(clamp_ / most * light) : light;
 }
 
-/// What a clear inside leaves of the light between the path's last surface and its next. A ray that has come
-/// to a back side without having gone in, as from an eye within a body, was in that body.
-Color PathTracer::let_through(const Path& path, const Ray& ray, const MeshHit& hit,
-                              const Ahead& ahead) const {
-  const double distance = std::min(ahead.mesh.t, ahead.ground);
-  const Absorption* inside = path.inside;
-  if (inside == nullptr && ahead.on_mesh && ahead.mesh.t < ahead.ground) {
-    const Bsdf& bsdf = shading_.brdfs[hit.mesh];
-    if (bsdf.transmits() && geometry_.is_behind(ray, hit)) inside = &bsdf.absorption();
-  }
-  if (inside == nullptr || inside->is_clear() || distance == SceneGeometry::never) return Color::Ones();
-  return inside->transmittance(static_cast<float>(distance));
+/// Over a distance in a clear inside; nullptr: air.
+void PathTracer::absorb(Path& path, const Absorption* inside, double distance) {
+  if (inside != nullptr && !inside->is_clear())
+    path.throughput *= inside->transmittance(static_cast<float>(distance));
 }
 
 /// Turns the last vertex into a walk in its body, or leaves what light does without entering.

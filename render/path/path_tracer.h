@@ -96,7 +96,7 @@ private:
   Color seen_by_camera(const Ray&, Ahead&) const;
   Color light_met(const Ray&, const Path&, std::uint32_t from, const Ahead&) const;
   void begin_vertex(const SurfacePoint&, const Ray&, const Path&, const Bsdf&, float share);
-  Color let_through(const Path&, const Ray&, const MeshHit&, const Ahead&) const;
+  static void absorb(Path&, const Absorption*, double distance);
   void enter_cloudy_inside(const Ray&, const MeshHit&, const Vec3& from, std::uint32_t depth);
   void leave_cloudy_insides();
   void add_light(std::uint32_t lane, const Color&);

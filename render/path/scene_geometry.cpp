@@ -122,13 +122,6 @@ SurfacePoint SceneGeometry::arrive(const Ray& ray, const MeshHit& hit, const Tri
   return {origin, facing(shading, wo), beyond, side < 0.0F};
 }
 
-bool SceneGeometry::is_behind(const Ray& ray, const MeshHit& hit) const {
-  const Moving& m = meshes_[hit.mesh];
-  const Triangle& t = m.triangles[hit.triangle];
-  const Vec3& a = m.positions[t[0]];
-  return (m.positions[t[1]] - a).cross(m.positions[t[2]] - a).dot(ray.direction) > 0.0F;
-}
-
 double SceneGeometry::meet_ground(const Ray& ray) const {
   if (!ground_.enabled) return never;
   const double above = static_cast<double>(ray.origin.y()) - ground_.height;

@@ -41,9 +41,6 @@ public:
   /// The surface at a hit.
   SurfacePoint arrive(const Ray&, const MeshHit&, const TriangleHit&) const;
 
-  /// Whether a ray comes to a hit from the back of its triangle.
-  bool is_behind(const Ray&, const MeshHit&) const;
-
   static constexpr double never = std::numeric_limits<double>::infinity();
   /// Distance to the ground's disc, from either side; `never` where a ray misses it.
   double meet_ground(const Ray&) const;
