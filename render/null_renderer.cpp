@@ -13,6 +13,7 @@ public:
   std::string_view name() const override { return "null"; }
   void set_scene(const RenderScene&) override {}
   void update_positions(int, std::span<const Vec3>) override {}
+  void update_colors(int, std::span<const Color>) override {}
   Image render(const Camera& camera, const FrameInfo&) override {
     Image image(camera.width(), camera.height());
     image.add("color", 3);

@@ -49,6 +49,7 @@ void check_mesh(const Mesh& mesh, std::size_t index) {
   if (mesh.body_id < 0)
     throw SettingsError(what + " body_id = " + std::to_string(mesh.body_id) + " must be >= 0");
   for (const Vec3& x : mesh.positions) check_point(what + " position", x);
+  if (!mesh.colors.empty()) check_colors(what, mesh.positions.size(), mesh.colors);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const std::uint32_t v : mesh.triangles[t]) {
       if (v < mesh.positions.size()) continue;
@@ -95,6 +96,17 @@ void check_scene(const RenderScene& scene) {
   check_color("sky horizon", scene.sky.horizon, largest, "finite, >= 0");
   check_range("sky strength", scene.sky.strength, 0.0F, largest, "finite, >= 0");
   if (scene.background) check_color("background", *scene.background, largest, "finite, >= 0");
+}
+
+void check_colors(const std::string& what, std::size_t vertices, std::span<const Color> colors) {
+  if (colors.size() != vertices) {
+    throw SettingsError(what + " has " + std::to_string(colors.size()) + " colors for " +
+                        std::to_string(vertices) + " vertices");
+  }
+  const auto right = [](const Color& c) { return (c >= 0.0F && c <= 1.0F).all(); };  // NaN is not
+  for (const Color& color : colors) {
+    if (!right(color)) check_color(what + " color", color, 1.0F, "in [0, 1]");
+  }
 }
 
 LightFrame light_frame(const AreaLight& light) {

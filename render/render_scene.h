@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct Mesh {
   Material material;
   bool smooth = true;  // false: one normal a triangle
   int body_id = 0;     // >= 0, written to the body id channel; the ground and what is behind it are -1
+  std::vector<Color> colors = {};  // of each vertex, in place of base_color, in [0, 1]; none: the material's
 };
 
 /// A disc of floor that receives shadows and fades into the background: opaque up to `fade_start` from its
@@ -89,6 +91,8 @@ struct RenderScene {
 /// Throws SettingsError, naming the mesh, light or ground, the value and what would be right: indices, finite
 /// numbers, ranges of materials, sizes.
 void check_scene(const RenderScene&);
+/// The same for new colours of a mesh's vertices: of a mesh that has colours, as many as it has.
+void check_colors(const std::string& what, std::size_t vertices, std::span<const Color>);
 LightFrame light_frame(const AreaLight&);
 /// Radiance that arrives from a unit direction of the sky.
 Color sky_radiance(const Sky&, const Vec3& direction);

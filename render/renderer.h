@@ -30,6 +30,8 @@ public:
   virtual void set_scene(const RenderScene&) = 0;
   /// New positions of scene.meshes[mesh], as many as it has [m]. Topology stays.
   virtual void update_positions(int mesh, std::span<const Vec3> positions) = 0;
+  /// New colours of scene.meshes[mesh], which has some: one for each vertex, in [0, 1]. Throws SettingsError.
+  virtual void update_colors(int mesh, std::span<const Color> colors) = 0;
   /// Draws "color" (linear) and every channel of settings.channels. The camera's size is the picture's.
   virtual Image render(const Camera&, const FrameInfo&) = 0;
   /// Library versions, device, instruction set: what the pixels' bits depend on. For run.json.

@@ -116,12 +116,16 @@ struct Row {
 };
 /// The explicit table: a new field is one row.
 constexpr std::array<Row, 6> table = {{
-    {{"von_mises", "Pa", "von Mises stress of the Cauchy stress"}, stresses, nullptr},
-    {{"J", "", "volume ratio det F"}, determinants, nullptr},
-    {{"energy_density", "J/m^3", "elastic energy per volume at rest"}, densities, nullptr},
-    {{"displacement", "m", "distance from the place at rest"}, displacements, vertex_displacements},
-    {{"stiffness", "Pa", "size of the material's moduli"}, stiffnesses, nullptr},
-    {{"body", "", "number of the body, from 0"}, bodies, nullptr},
+    {{"von_mises", "Pa", "von Mises stress of the Cauchy stress", "von Mises stress"}, stresses, nullptr},
+    {{"J", "", "volume ratio det F", "volume ratio J"}, determinants, nullptr},
+    {{"energy_density", "J/m^3", "elastic energy per volume at rest", "elastic energy density"},
+     densities,
+     nullptr},
+    {{"displacement", "m", "distance from the place at rest", "displacement"},
+     displacements,
+     vertex_displacements},
+    {{"stiffness", "Pa", "size of the material's moduli", "stiffness"}, stiffnesses, nullptr},
+    {{"body", "", "number of the body, from 0", "body"}, bodies, nullptr},
 }};
 
 const Row& find_row(std::string_view name) {

@@ -17,6 +17,7 @@ struct FieldInfo {
   const char* name;
   const char* unit;  // "" for a pure number
   const char* meaning;
+  const char* title;  // as it stands beside a scale
 };
 /// von_mises, J, energy_density, displacement, stiffness, body.
 std::vector<FieldInfo> field_table();

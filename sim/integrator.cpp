@@ -158,16 +158,35 @@ StepReport take_measured_step(const Stepping& with, double h, State& state, Fram
   return step;
 }
 
+/// How a failed step ended, in a sentence.
+const char* told(StepStatus status) {
+  switch (status) {
+    case StepStatus::not_converged:
+      return "did not converge";
+    case StepStatus::not_positive:
+      return "had no positive definite system";
+    case StepStatus::not_finite:
+      return "gave values that are not finite";
+    case StepStatus::inaccurate:
+      return "was too inaccurate";
+    default:
+      return "ended well";
+  }
+}
+
 std::string reason_of(const Stepping& with, const StepReport& step, const State& state, int depth) {
   std::string how =
       "residual " + short_number(step.residual) + " (tolerance " + short_number(with.solver.tolerance) + ")";
   if (step.status == StepStatus::inaccurate)
     how = "an estimated error of " + short_number(*step.error) + " m (tolerance " +
           short_number(*with.time.error_tolerance) + ")";
+  const bool loose =
+      step.status == StepStatus::not_positive && with.model.held(state.t).pins().vertices().empty();
+  const std::string hint = loose ? "; nothing is pinned" : "";
   return "frame " + std::to_string(state.frame + 1) + ": " + with.integrator.step_name() + " of " +
-         short_number(step.h) + " s at t = " + short_number(state.t) + " s ended " +
-         std::string(to_string(step.status)) + " after " + std::to_string(step.newton_iterations) +
-         " Newton iterations with " + how + ", halved " + std::to_string(depth) + " times";
+         short_number(step.h) + " s at t = " + short_number(state.t) + " s " + told(step.status) + " after " +
+         std::to_string(step.newton_iterations) + " Newton iterations with " + how + ", halved " +
+         std::to_string(depth) + " times" + hint;
 }
 
 /// Advances by h, in two halves when one step will not do. Returns whether it got there; adds to the report.

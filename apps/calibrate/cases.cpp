@@ -12,6 +12,7 @@
 #include "apps/file_io.h"
 #include "apps/pipeline/build_scene.h"
 #include "apps/pipeline/stop.h"
+#include "apps/pipeline/surface_fields.h"
 #include "apps/run/plan.h"
 #include "apps/run/run_json.h"
 #include "apps/run/state_file.h"
@@ -37,6 +38,7 @@ public:
         camera_(scene_.camera, scene_.render.width, scene_.render.height),
         model_(build_model(scene_, progress)),
         surfaces_(build_surfaces(scene_, model_, progress)),
+        fields_(scene_, model_, surfaces_),
         rest_(build_render_scene(scene_, model_, surfaces_)),
         threads_(request.threads) {
     scene_.render.channels.clear();
@@ -48,6 +50,8 @@ public:
       frames_ = {all.first, (all.first + all.last) / 2, all.last};
     }
     for (const int frame : frames_) states_.require({frame, frame});
+    if (!fields_.is_automatic()) return;
+    for (const auto& [frame, record] : states_.records()) fields_.see(state(frame).q);
   }
 
   const std::set<int>& frames() const { return frames_; }
@@ -57,13 +61,14 @@ public:
 
   /// The meshes where they are in a frame.
   render::RenderScene scene(int frame) const {
-    const sim::State state = decode_state(read_file(paths_.state(frame)), paths_.state(frame).string(), frame,
-                                          scene_.time.fps, model_.mesh().vertex_count());
+    const sim::VecX q = state(frame).q;
+    const auto colors = fields_.colors(q);
     render::RenderScene drawn = rest_;
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-      const sim::Points positions = surfaces_[i].positions(state.q);
+      const sim::Points positions = surfaces_[i].positions(q);
       for (std::size_t v = 0; v < drawn.meshes[i].positions.size(); ++v)
         drawn.meshes[i].positions[v] = positions.row(static_cast<Eigen::Index>(v)).transpose().cast<float>();
+      drawn.meshes[i].colors = colors[i];
     }
     return drawn;
   }
@@ -74,7 +79,10 @@ public:
     const auto renderer = render::make_renderer(settings, threads);
     renderer->set_scene(scene);
     const double time = frame / scene_.time.fps;
-    return render::tone_map(renderer->render(camera_, {frame, time}), settings.tone_curve, settings.exposure);
+    render::Picture picture =
+        render::tone_map(renderer->render(camera_, {frame, time}), settings.tone_curve, settings.exposure);
+    draw_color_bars(picture, fields_.bars());
+    return picture;
   }
 
 private:
@@ -89,6 +97,11 @@ private:
     return std::move(*info);
   }
 
+  sim::State state(int frame) const {
+    const std::filesystem::path file = paths_.state(frame);
+    return decode_state(read_file(file), file.string(), frame, scene_.time.fps, model_.mesh().vertex_count());
+  }
+
   RunPaths paths_;
   RunInfo info_;
   SceneDesc scene_;
@@ -96,6 +109,7 @@ private:
   render::Camera camera_;
   sim::Model model_;
   std::vector<sim::Surface> surfaces_;
+  SurfaceFields fields_;
   render::RenderScene rest_;
   int threads_;
   std::set<int> frames_;

@@ -7,6 +7,7 @@
 #include "apps/error.h"
 #include "apps/export/gltf.h"
 #include "apps/export/usd.h"
+#include "apps/pipeline/surface_fields.h"
 #include "sim/io/field_writers.h"
 #include "sim/io/formats.h"
 
@@ -66,15 +67,6 @@ bool ExportedSequence::each(const std::function<void(const sim::State&)>& visit)
     told();
   }
   return true;
-}
-
-std::vector<double> surface_values(const sim::Surface& surface, const std::vector<double>& vertices) {
-  sim::VecX as_x = sim::VecX::Zero(3 * static_cast<Eigen::Index>(vertices.size()));
-  for (std::size_t v = 0; v < vertices.size(); ++v) as_x(3 * static_cast<Eigen::Index>(v)) = vertices[v];
-  const sim::Points carried = surface.positions(as_x);
-  std::vector<double> values(static_cast<std::size_t>(carried.rows()));
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = carried(static_cast<Eigen::Index>(i), 0);
-  return values;
 }
 
 const ExportFormat& find_format(std::string_view name) {

@@ -51,7 +51,4 @@ struct ExportFormat {
 /// Throws Error(wrong_input) that lists the formats for a name that is none.
 const ExportFormat& find_format(std::string_view name);
 
-/// Values of the tets' vertices on a surface, carried as a coordinate is.
-std::vector<double> surface_values(const sim::Surface&, const std::vector<double>& vertices);
-
 }  // namespace lagomorph::apps

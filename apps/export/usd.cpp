@@ -10,6 +10,7 @@
 
 #include "apps/export/moving_mesh.h"
 #include "apps/file_io.h"
+#include "apps/pipeline/surface_fields.h"
 #include "apps/version.h"
 
 namespace lagomorph::apps {

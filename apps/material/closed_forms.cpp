@@ -99,24 +99,39 @@ ClosedForm linear(const Lame& m) {
   return {corotated(m).principal, [m](double amount) { return m.mu * amount; }};
 }
 
-/// G as the plain sum of which the material has the closed one.
-double summed(const sim::StressStrainCurve& curve, double x) {
-  double sum = 0.0;
-  for (; std::abs(x) > 1e-18; x *= -curve.poisson()) sum += curve.stress(x).T;
-  return sum;
+/// G from the uniaxial data alone, without the material's table: where an axis at x has free sides at y,
+/// lambda (x + 2y) + G(y) = 0 and G(x) = T(x) + G(y), so that from a y near 0, where G = 2 mu y, each x that
+/// leans on the one before follows in turn; the first y is the one whose last x is that asked for.
+double chained(const sim::StressStrainCurve& curve, double x) {
+  const double nu = curve.poisson();
+  if (x == 0.0 || nu == 0.0) return curve.stress(x).y;
+  const int links = static_cast<int>(std::ceil(std::log(1e-12) / std::log(nu)));
+  const double sign = links % 2 == 0 ? x : -x;
+  double low = std::log(1e-40), high = 0.0, G = 0.0;
+  for (int i = 0; i < 200 && low < high; ++i) {
+    const double middle = 0.5 * (low + high);
+    double at = sign * std::exp(middle);
+    G = curve.young() / (1.0 + nu) * at;
+    for (int k = 0; k < links; ++k) {
+      at = -2.0 * at - G / curve.lambda();
+      G += curve.stress(at).y;
+    }
+    if (middle == low || middle == high) break;
+    (at / x > 1.0 ? high : low) = middle;
+  }
+  return G;
 }
 
-/// P_i s_i = G(log s_i) - G(-nu/(1 - 2nu) log J).
+/// P_i s_i = G(log s_i) + lambda log J.
 ClosedForm stress_strain(const sim::MaterialSettings& settings) {
   const auto curve = sim::StressStrain::from_settings(settings, settings.model).curve;
   return {[curve](const Vec3& s) -> Vec3 {
-            const double a = curve->poisson() / (1.0 - 2.0 * curve->poisson());
-            const double k = -summed(*curve, -a * std::log(s.prod()));
-            return s.unaryExpr([&](double t) { return (summed(*curve, std::log(t)) + k) / t; });
+            const double k = curve->lambda() * std::log(s.prod());
+            return s.unaryExpr([&](double t) { return (chained(*curve, std::log(t)) + k) / t; });
           },
           [curve](double amount) {
             const double x = std::asinh(0.5 * amount);  // stretches e^x, e^-x, 1
-            return (summed(*curve, x) - summed(*curve, -x)) / pair_sum(amount);
+            return (chained(*curve, x) - chained(*curve, -x)) / pair_sum(amount);
           }};
 }
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/plot/ticks.h"
+#include "apps/overlay/ticks.h"
 
 namespace lagomorph::apps {
 namespace {

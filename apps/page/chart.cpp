@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "apps/page/html.h"
-#include "apps/plot/ticks.h"
+#include "apps/overlay/ticks.h"
 
 namespace lagomorph::apps {
 namespace {

@@ -131,6 +131,8 @@ render::RenderScene build_render_scene(const SceneDesc& scene, const sim::Model&
     }
     mesh.positions = to_render(surfaces[i].positions(X));
     mesh.material = scene.body[i].look;
+    if (scene.body[i].shown.field != "none")
+      mesh.colors.assign(mesh.positions.size(), mesh.material.base_color);  // until a state is shown
     mesh.smooth = scene.body[i].surface.smooth;
     mesh.body_id = static_cast<int>(i);
     drawn.meshes.push_back(std::move(mesh));

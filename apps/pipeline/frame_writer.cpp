@@ -7,6 +7,7 @@
 #include "apps/file_io.h"
 #include "apps/hash.h"
 #include "apps/npy.h"
+#include "apps/overlay/color_bar.h"
 #include "apps/pipeline/stopwatch.h"
 #include "apps/run/state_file.h"
 #include "render/color.h"
@@ -26,8 +27,8 @@ std::string encode_channel(const render::Channel& channel) {
 
 FrameWriter::FrameWriter(const RunPaths& paths, const Identity& identity,
                          const render::RenderSettings& settings, const std::map<int, FrameRecord>& records,
-                         bool draws)
-    : paths_(paths), identity_(identity), settings_(settings), records_(records) {
+                         const SurfaceFields& fields, bool draws)
+    : paths_(paths), identity_(identity), settings_(settings), records_(records), fields_(fields) {
   make_folder(paths.states());
   make_folder(paths.records());
   if (!draws) return;
@@ -61,13 +62,15 @@ StateRecord FrameWriter::write_state(const sim::State& state, StateRecord record
 }
 
 PictureRecord FrameWriter::write_picture(int frame, const render::Image& image) const {
-  const render::Picture picture = render::tone_map(image, settings_.tone_curve, settings_.exposure);
+  render::Picture picture = render::tone_map(image, settings_.tone_curve, settings_.exposure);
+  draw_color_bars(picture, fields_.bars());
   const std::string png = render::encode_png(picture, settings_.png_compression);
   write_file(paths_.picture(frame), png);
   PictureRecord record;
   record.sha256 = sha256(png);
   record.made_by = identity_.picture_hash();
   if (settings_.backend == "path") record.clamp = static_cast<double>(settings_.path.clamp);
+  record.ranges = fields_.ranges();
   for (const std::string& name : settings_.channels) {
     const render::Channel* channel = image.find(name);
     if (channel == nullptr) {

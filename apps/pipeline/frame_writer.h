@@ -3,6 +3,7 @@
 #include <map>
 
 #include "apps/pipeline/frames.h"
+#include "apps/pipeline/surface_fields.h"
 #include "apps/run/identity.h"
 #include "apps/run/paths.h"
 #include "apps/run/record.h"
@@ -16,7 +17,7 @@ class FrameWriter {
 public:
   /// `records` are those of the frames that are there. Makes the folders.
   FrameWriter(const RunPaths&, const Identity&, const render::RenderSettings&,
-              const std::map<int, FrameRecord>& records, bool draws);
+              const std::map<int, FrameRecord>& records, const SurfaceFields&, bool draws);
 
   void write(const DrawnFrame&) const;
 
@@ -28,6 +29,7 @@ private:
   const Identity& identity_;
   const render::RenderSettings& settings_;
   const std::map<int, FrameRecord>& records_;
+  const SurfaceFields& fields_;
 };
 
 }  // namespace lagomorph::apps

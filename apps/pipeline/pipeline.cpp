@@ -44,6 +44,7 @@ DrawnFrame draw(const PipelineInput& in, const std::optional<render::Camera>& ca
   if (!drawn.of.job.draw || stop_asked()) return drawn;  // a stopped run still keeps the state
   const Stopwatch watch;
   move_meshes(*in.renderer, in.surfaces, drawn.of.state.q);
+  in.fields.color_meshes(*in.renderer, drawn.of.state.q);
   drawn.image = in.renderer->render(*camera, {drawn.of.job.frame, drawn.of.state.t});
   drawn.seconds = watch.seconds();
   return drawn;
@@ -56,7 +57,7 @@ PipelineResult run_pipeline(const PipelineInput& in, Progress& progress) {
   std::optional<render::Camera> camera;
   if (in.renderer != nullptr) camera.emplace(in.scene.camera, settings.width, settings.height);
   StateSource states(in.scene, in.model, in.integrator, in.paths, in.log_newton);
-  const FrameWriter writer(in.paths, in.identity, settings, in.records, camera.has_value());
+  const FrameWriter writer(in.paths, in.identity, settings, in.records, in.fields, camera.has_value());
   BoundedQueue<StateFrame> to_draw(frames_between_stages);
   BoundedQueue<DrawnFrame> to_write(frames_between_stages);
   Turns turns(in.threads);
@@ -94,7 +95,7 @@ PipelineResult run_pipeline(const PipelineInput& in, Progress& progress) {
   });
   const std::exception_ptr error = workers.finish();
   progress.end();
-  return {frames_done, states_made, pictures_made, states.failure(), error};
+  return {frames_done, states_made, pictures_made, states.failure(), error, false};
 }
 
 }  // namespace lagomorph::apps

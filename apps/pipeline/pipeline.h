@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/pipeline/frames.h"
+#include "apps/pipeline/surface_fields.h"
 #include "apps/progress/progress.h"
 #include "apps/run/identity.h"
 #include "apps/run/paths.h"
@@ -22,6 +23,7 @@ struct PipelineInput {
   const SceneDesc& scene;
   const sim::Model& model;
   const std::vector<sim::Surface>& surfaces;
+  const SurfaceFields& fields;
   sim::Integrator& integrator;
   render::Renderer*
       renderer;  // with its scene set; made by the calling thread; nullptr when nothing is drawn
@@ -39,6 +41,7 @@ struct PipelineResult {
   int pictures = 0;          // drawn and written
   std::string failure;       // why the simulation could not go on; empty otherwise
   std::exception_ptr error;  // what a stage threw; none otherwise
+  bool stopped = false;      // before it was known what there is to draw
 };
 
 /// Makes the frames of the jobs. The simulation of the next frames overlaps drawing and writing of this one.

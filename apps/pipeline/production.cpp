@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -15,12 +16,14 @@
 #include "apps/pipeline/pipeline.h"
 #include "apps/pipeline/stop.h"
 #include "apps/pipeline/stopwatch.h"
+#include "apps/pipeline/surface_fields.h"
 #include "apps/run/disk_space.h"
 #include "apps/run/gather.h"
 #include "apps/run/inputs.h"
 #include "apps/run/result.h"
 #include "apps/run/run_json.h"
 #include "apps/run/run_video.h"
+#include "apps/run/state_file.h"
 #include "sim/integrator.h"
 #include "sim/mesh_io.h"
 
@@ -97,11 +100,68 @@ void prepare_folder(Production& p, RunInfo& info) {
   if (p.states != nullptr) p.states->bring_to(p.paths, p.contents.matching);
 }
 
+/// Finds the automatic ranges over all states that RUN holds. False: asked to stop.
+bool find_ranges(const Production& p, const sim::Model& model, SurfaceFields& fields, Progress& progress) {
+  const std::map<int, FrameRecord> frames = within(p.contents.matching, p.scene.time.frames);
+  progress.begin(static_cast<int>(frames.size()));
+  for (const auto& [frame, record] : frames) {
+    if (stop_asked()) return false;
+    const fs::path file = p.paths.state(frame);
+    fields.see(
+        decode_state(read_file(file), file.string(), frame, p.scene.time.fps, model.mesh().vertex_count()).q);
+    progress.frame_done();
+  }
+  progress.end();
+  for (const auto& [body, range] : fields.ranges())
+    progress.note(fmt::format("{}: colours from {:.6g} to {:.6g}", body, range[0], range[1]));
+  return true;
+}
+
+/// What is to be drawn of the frames asked for whose states are there: pictures in other ranges are made
+/// again.
+std::vector<FrameJob> pictures_in_ranges(const Production& p, const SurfaceFields& fields) {
+  std::vector<FrameJob> jobs;
+  for (int frame = p.frames.first; frame <= p.frames.last; ++frame) {
+    const auto found = p.contents.matching.find(frame);
+    if (found == p.contents.matching.end()) continue;
+    const FrameRecord& record = found->second;
+    if (!picture_is_there(p.paths, record) || record.picture->ranges != fields.ranges())
+      jobs.push_back({.frame = frame, .simulate = false, .draw = true});
+  }
+  return jobs;
+}
+
+using Pipeline = std::function<PipelineResult(const std::vector<FrameJob>&)>;
+
+/// Where colours span what a field is in the whole sequence: 1. all states, 2. the range, 3. the pictures.
+PipelineResult simulate_then_draw(Production& p, const sim::Model& model, SurfaceFields& fields,
+                                  const Pipeline& run, Progress& progress) {
+  std::vector<FrameJob> states;
+  for (const FrameJob& job : p.jobs)
+    if (job.simulate) states.push_back({.frame = job.frame, .simulate = true, .draw = false});
+  PipelineResult made;
+  if (!states.empty()) {
+    progress.note("colours span all frames: these are simulated first, then drawn");
+    made = run(states);
+    made.stopped = stop_asked();
+    if (made.error || made.stopped) return made;
+    p.contents.matching = read_contents(p.paths, p.identity).matching;
+  }
+  made.stopped = !find_ranges(p, model, fields, progress);
+  if (made.stopped) return made;
+
+  p.jobs = pictures_in_ranges(p, fields);
+  const PipelineResult drawn = run(p.jobs);
+  p.jobs.insert(p.jobs.begin(), states.begin(), states.end());
+  return {made.frames + drawn.frames, made.states, drawn.pictures, made.failure, drawn.error, false};
+}
+
 /// Makes the missing frames, from the model on. Up to take_folder nothing is written; nullopt when stopped
 /// there.
 std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress& progress) {
   const sim::Model model = build_model(p.scene, progress);
   const std::vector<sim::Surface> surfaces = build_surfaces(p.scene, model, progress);
+  SurfaceFields fields(p.scene, model, surfaces);
   if (p.renderer) {
     const render::RenderScene drawn = build_render_scene(p.scene, model, surfaces);
     for (const std::string& remark : render::renderer_remarks(p.scene.render, p.scene.camera, drawn))
@@ -125,9 +185,13 @@ std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress
     write_file_if_changed(p.paths.mesh(), mesh_text(model), Durable::yes);
     if (p.share) p.lock->take(RunLock::Kind::shared);
   }
-  return run_pipeline({p.scene, model, surfaces, *integrator, p.renderer.get(), p.paths, p.identity,
-                       p.contents.matching, p.jobs, p.threads, p.options.log_newton},
-                      progress);
+  const Pipeline run = [&](const std::vector<FrameJob>& jobs) {
+    return run_pipeline({p.scene, model, surfaces, fields, *integrator, p.renderer.get(), p.paths, p.identity,
+                         p.contents.matching, jobs, p.threads, p.options.log_newton},
+                        progress);
+  };
+  if (p.renderer && fields.is_automatic()) return simulate_then_draw(p, model, fields, run, progress);
+  return run(p.jobs);
 }
 
 /// What the frames on disk and their making say of how it went. Throws what a stage threw, and
@@ -157,7 +221,8 @@ ExitStatus make_all(Production& p, RunResult& result, Progress& progress) {
   RunInfo info = new_info(p);
   std::optional<PipelineResult> made;
   std::error_code unused;
-  if (!p.jobs.empty() || !fs::exists(p.paths.mesh(), unused)) {
+  const bool find_range = p.renderer && has_automatic_range(p.scene);
+  if (!p.jobs.empty() || find_range || !fs::exists(p.paths.mesh(), unused)) {
     made = make_frames(p, info, progress);
     if (!made) return stop_status();
   } else {
@@ -169,7 +234,7 @@ ExitStatus make_all(Production& p, RunResult& result, Progress& progress) {
   result.states_made = made->states;
   result.pictures_made = made->pictures;
   check_made(p, *made, result);
-  if (made->frames < static_cast<int>(p.jobs.size())) return stop_status();
+  if (made->stopped || made->frames < static_cast<int>(p.jobs.size())) return stop_status();
 
   if (p.options.video && p.renderer) {
     std::optional<VideoUpdate> video =

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "apps/page/html.h"
-#include "apps/plot/stroke_font.h"
+#include "apps/overlay/stroke_font.h"
 
 namespace lagomorph::apps {
 namespace {

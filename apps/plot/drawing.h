@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "apps/plot/strokes.h"
+#include "apps/overlay/strokes.h"
 
 namespace lagomorph::apps {
 

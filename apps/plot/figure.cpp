@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "apps/plot/stroke_font.h"
-#include "apps/plot/ticks.h"
+#include "apps/overlay/stroke_font.h"
+#include "apps/overlay/ticks.h"
 
 namespace lagomorph::apps {
 namespace {

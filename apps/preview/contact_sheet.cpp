@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "apps/file_io.h"
-#include "apps/plot/stroke_font.h"
+#include "apps/overlay/stroke_font.h"
 #include "apps/preview/story.h"
 #include "render/png_read.h"
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "apps/scene/body_keys.h"
-#include "apps/scene/look_keys.h"
 #include "render/color.h"
 #include "render/path/filter.h"
 #include "render/renderer.h"
@@ -82,6 +81,27 @@ void visit_solver(sim::SolverSettings& s, KeyVisitor& v) {
          .part = simulation,
          .meaning = "threads of OpenBLAS inside CHOLMOD; part of the result's bits, so of the scene"},
         &s.blas_threads);
+}
+
+void visit_look(render::Material& m, KeyVisitor& v) {
+  v.key({.name = "base_color",
+         .bounds = between(0, 1),
+         .meaning = "linear RGB: diffuse albedo, or a metal's reflectance at normal incidence"},
+        &m.base_color);
+  v.key({.name = "roughness", .bounds = between(0, 1), .meaning = "perceptual; GGX alpha is its square"},
+        &m.roughness);
+  v.key({.name = "metallic",
+         .bounds = between(0, 1),
+         .meaning = "0 a dielectric over a diffuse base, 1 a metal"},
+        &m.metallic);
+  v.key({.name = "ior", .bounds = between(1, 10), .meaning = "index of refraction of the dielectric"},
+        &m.ior);
+}
+
+void visit_body_look(BodyDesc& b, KeyVisitor& v) {
+  visit_look(b.look, v);
+  visit_optics(b.look, v);
+  visit_shown_field(b.shown, v);
 }
 
 void visit_surface(SurfaceDesc& s, KeyVisitor& v) {
@@ -165,7 +185,7 @@ void visit_body(BodyDesc& b, KeyVisitor& v) {
   v.one({.name = "damping", .meaning = "what takes energy out of its motion", .is_inline = true}, p.damping,
         visit_damping);
   v.one({.name = "surface", .meaning = "what of the body is drawn"}, b.surface, visit_surface);
-  v.one({.name = "look", .meaning = "how the body is drawn"}, b.look, visit_body_look);
+  v.one({.name = "look", .meaning = "how the body is drawn"}, b, visit_body_look);
   v.list(
       {.name = "pin",
        .meaning = "vertices held where they are at the start, or driven; several selectors select the union"},

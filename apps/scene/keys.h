@@ -76,8 +76,8 @@ using Field =
     std::variant<bool*, int*, std::uint32_t*, double*, float*, std::string*, sim::Vec3*, render::Vec2*,
                  render::Vec3*, render::Color*, std::optional<double>*, std::optional<float>*,
                  std::optional<sim::Vec3>*, std::optional<render::Color>*, std::optional<sim::BoxSelector>*,
-                 std::vector<int>*, std::vector<std::string>*, std::vector<std::array<double, 2>>*,
-                 std::vector<double>*, std::vector<sim::Vec3>*>;
+                 std::optional<std::array<double, 2>>*, std::vector<int>*, std::vector<std::string>*,
+                 std::vector<std::array<double, 2>>*, std::vector<double>*, std::vector<sim::Vec3>*>;
 
 class KeyVisitor;
 

@@ -1,63 +1,39 @@
-#include "apps/scene/look_keys.h"
+#include "apps/scene/body_keys.h"
+#include "render/colormap.h"
+#include "sim/fields.h"
 
 namespace lagomorph::apps {
+namespace {
 
-void visit_look(render::Material& m, KeyVisitor& v) {
-  v.key({.name = "base_color",
-         .bounds = between(0, 1),
-         .meaning = "linear RGB: diffuse albedo, or a metal's reflectance at normal incidence"},
-        &m.base_color);
-  v.key({.name = "roughness", .bounds = between(0, 1), .meaning = "perceptual; GGX alpha is its square"},
-        &m.roughness);
-  v.key({.name = "metallic",
-         .bounds = between(0, 1),
-         .meaning = "0 a dielectric over a diffuse base, 1 a metal"},
-        &m.metallic);
-  v.key({.name = "ior", .bounds = between(1, 10), .meaning = "index of refraction of the dielectric"},
-        &m.ior);
+std::vector<std::string> field_choices() {
+  std::vector<std::string> names = {"none"};
+  for (const sim::FieldInfo& field : sim::field_table()) names.emplace_back(field.name);
+  return names;
 }
 
-void visit_body_look(render::Material& m, KeyVisitor& v) {
-  visit_look(m, v);
-  v.key({.name = "transmission",
-         .bounds = between(0, 1),
-         .meaning = "part of the dielectric that is clear inside: 1 glass or jelly, refracting by ior and "
-                    "roughness"},
-        &m.transmission);
-  v.key({.name = "absorption_color",
-         .bounds = between(0, 1),
-         .meaning = "linear RGB that the clear inside lets through over absorption_distance"},
-        &m.absorption_color);
-  v.key({.name = "absorption_distance",
-         .unit = "m",
-         .bounds = between(1e-6, 1e6),
-         .meaning = "a way d lets absorption_color^(d / absorption_distance) through"},
-        &m.absorption_distance);
-  v.key({.name = "subsurface",
-         .bounds = between(0, 1),
-         .meaning = "part of the diffuse base that is cloudy inside: 1 skin, wax or milk, by random walk"},
-        &m.subsurface);
-  v.key({.name = "subsurface_color",
-         .bounds = between(0, 1),
-         .meaning = "linear RGB: diffuse albedo of a thick piece of the cloudy inside"},
-        &m.subsurface_color);
-  v.key({.name = "subsurface_radius",
-         .unit = "m",
-         .bounds = between(1e-6, 1e6),
-         .meaning = "mean free path in the cloudy inside, of red, green and blue",
-         .single = true},
-        &m.subsurface_radius);
-  v.key({.name = "coat", .bounds = between(0, 1), .meaning = "a clear varnish of index 1.5 over all"},
-        &m.coat);
-  v.key({.name = "coat_roughness", .bounds = between(0, 1), .meaning = "of the varnish, perceptual"},
-        &m.coat_roughness);
-  v.key({.name = "sheen", .bounds = between(0, 1), .meaning = "fuzz of cloth, bright along the silhouette"},
-        &m.sheen);
-  v.key({.name = "sheen_tint", .bounds = between(0, 1), .meaning = "linear RGB of the fuzz"}, &m.sheen_tint);
-  v.key({.name = "sheen_roughness",
-         .bounds = between(0, 1),
-         .meaning = "how far from the silhouette the fuzz is seen"},
-        &m.sheen_roughness);
+std::vector<std::string> colormap_choices() {
+  std::vector<std::string> names = render::colormap_names();
+  names.insert(names.begin(), "auto");
+  return names;
+}
+
+}  // namespace
+
+void visit_shown_field(ShownField& s, KeyVisitor& v) {
+  v.key({.name = "field",
+         .meaning = "scalar field that colours the surface, in place of base_color",
+         .choices = field_choices},
+        &s.field);
+  v.key({.name = "colormap",
+         .meaning = "colours of the field; auto: viridis, of J coolwarm with 1 in its middle",
+         .choices = colormap_choices},
+        &s.colormap);
+  v.key({.name = "range",
+         .unit = "of the field",
+         .meaning = "values of the first and the last colour; without it the least and the greatest of all "
+                    "frames"},
+        &s.range);
+  v.key({.name = "color_bar", .meaning = "whether a field's colours are told in the picture"}, &s.color_bar);
 }
 
 }  // namespace lagomorph::apps

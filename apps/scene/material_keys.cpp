@@ -152,7 +152,7 @@ void visit_region(sim::RegionSettings& r, KeyVisitor& v) {
          .unit = "kg/m^3",
          .bounds = above(0),
          .part = simulation,
-         .meaning = "mass density at rest; without it the body's"},
+         .meaning = "mass density at rest; without it that of the region below, or the body's"},
         &r.density);
   visit_sphere_and_plane(r.sphere, r.plane, v);
   v.optional({.name = "material",

@@ -66,6 +66,9 @@ public:
   void read(const Key& k, const std::string& path, const toml::node& node, render::Color& value) {
     read_elements<3>(k, path, node, value.data());
   }
+  void read(const Key& k, const std::string& path, const toml::node& node, std::array<double, 2>& value) {
+    read_elements<2>(k, path, node, value.data());
+  }
   void read(const Key& k, const std::string& path, const toml::node& node, sim::BoxSelector& value) {
     const toml::array& a = array(path, node, 2, "corners, [[x, y, z], [x, y, z]]");
     read(k, path + ".0", *a.get(0), value.min);

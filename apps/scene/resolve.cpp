@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <optional>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -165,6 +167,13 @@ void check_camera(const render::CameraSettings& c, const Places& places) {
 }
 
 void check_looks(const SceneDesc& scene, const Places& places) {
+  for (std::size_t i = 0; i < scene.body.size(); ++i) {
+    const std::optional<std::array<double, 2>>& range = scene.body[i].shown.range;
+    if (!range || (*range)[0] < (*range)[1]) continue;
+    const std::string key = fmt::format("body.{}.look.range", i);
+    wrong_input(fmt::format("{}{} = [{}, {}]: the first must be less than the second", places.of(key), key,
+                            (*range)[0], (*range)[1]));
+  }
   if (scene.ground.fade_start >= scene.ground.radius) {
     const char* key = places.has("ground.fade_start") ? "ground.fade_start" : "ground.radius";
     wrong_input(fmt::format("{}ground.fade_start = {} must be less than ground.radius = {}", places.of(key),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,12 +22,21 @@ struct SurfaceDesc {
   bool smooth = true;  // smooth normals; false: one a triangle
 };
 
+/// A scalar field of a body's state, shown in the colours of its surface.
+struct ShownField {
+  std::string field = "none";                  // see sim::field_table()
+  std::string colormap = "auto";               // see render::colormap_names(); auto: the field's own
+  std::optional<std::array<double, 2>> range;  // low < high; none: that of the whole sequence
+  bool color_bar = true;                       // in the picture
+};
+
 struct BodyDesc {
   sim::BodySettings physics;
   std::string mesh;              // tet mesh; relative to the scene file (or to RUN, for RUN/scene.toml)
   std::string element = "mesh";  // what the mesh has; or "linear", "quadratic": made so as it is read
   SurfaceDesc surface;           // [body.surface]
   render::Material look;         // [body.look]
+  ShownField shown;              // likewise
   // "a.toml:12:1: body.0.pin.0": where each stands, for errors
   std::vector<std::string> pin_places, spring_places, load_places;
 };

@@ -30,22 +30,24 @@ float smith_root(const Vec3& w, float alpha) {
 
 }  // namespace
 
-Brdf::Brdf(const Material& m, float base_share) {
+Brdf::Brdf(const Material& m, float base_share) : metallic_(m.metallic), base_share_(base_share) {
   const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
   coat_f0_ = r * r;
   coat_f90_ = std::min(1.0F, 50.0F * coat_f0_);
-  f0_ = (1.0F - m.metallic) * Color::Constant(coat_f0_) + m.metallic * m.base_color;
-  f90_ = std::min(1.0F, 50.0F * f0_.maxCoeff());
   alpha_ = std::max(m.roughness * m.roughness, 1e-3F);  // sharper is a mirror but for what float resolves
-  float mean = 0.0F;                                    // of what is let in, 2 int into_base(c) c dc
   for (int i = 0; i <= intervals; ++i) {
     const float cosine = static_cast<float>(i) / intervals;
     CoatAlbedo& a = albedo_[static_cast<std::size_t>(i)];
     a = coat_albedo(cosine, m.roughness);
-    mean += 2.0F * into_base(a) * cosine * (i == intervals ? 0.5F : 1.0F) / intervals;
+    mean_into_base_ += 2.0F * into_base(a) * cosine * (i == intervals ? 0.5F : 1.0F) / intervals;
   }
-  mean_let_in_ = mean;
-  base_ = (1.0F - m.metallic) * inv_pi / mean * m.base_color * base_share;
+  tint_ = tint(m.base_color);
+}
+
+Brdf::Tint Brdf::tint(const Color& base_color) const {
+  const Color f0 = (1.0F - metallic_) * Color::Constant(coat_f0_) + metallic_ * base_color;
+  return {(1.0F - metallic_) * inv_pi / mean_into_base_ * base_color * base_share_, f0,
+          std::min(1.0F, 50.0F * f0.maxCoeff())};
 }
 
 CoatAlbedo Brdf::albedo(float cosine) const {
@@ -57,13 +59,14 @@ CoatAlbedo Brdf::albedo(float cosine) const {
   return {a.scale + t * (b.scale - a.scale), a.offset + t * (b.offset - a.offset)};
 }
 
-Brdf::View Brdf::view(const Vec3& wo, float least_alpha) const {
+Brdf::View Brdf::view(const Vec3& wo, float least_alpha, const Color* base_color) const {
+  const Tint t = base_color == nullptr ? tint_ : tint(*base_color);
   const CoatAlbedo a = albedo(std::max(wo.z(), 0.0F));
-  const Color base = base_ * into_base(a);
-  const float coat = luminance(f0_) * a.scale + f90_ * a.offset;
+  const Color base = t.base * into_base(a);
+  const float coat = luminance(t.f0) * a.scale + t.f90 * a.offset;
   const float all = coat + std::numbers::pi_v<float> * luminance(base);
   const float alpha = std::max(alpha_, least_alpha);
-  return {wo, base, all > 0.0F ? coat / all : 0.0F, alpha, smith_root(wo, alpha), all};
+  return {wo, base, t.f0, t.f90, all > 0.0F ? coat / all : 0.0F, alpha, smith_root(wo, alpha), all};
 }
 
 Brdf::Value Brdf::evaluate(const View& view, const Vec3& wi) const {
@@ -72,7 +75,8 @@ Brdf::Value Brdf::evaluate(const View& view, const Vec3& wi) const {
   const Vec3 h = (wo + wi).normalized();
   const float d = ggx(h, view.alpha);
   const float visibility = 0.5F / (wo.z() * smith_root(wi, view.alpha) + wi.z() * view.root);
-  const Color coat = (f0_ + (f90_ - f0_) * pow5(1.0F - std::min(wo.dot(h), 1.0F))) * (d * visibility);
+  const Color coat =
+      (view.f0 + (view.f90 - view.f0) * pow5(1.0F - std::min(wo.dot(h), 1.0F))) * (d * visibility);
   const Color base = view.base * into_base(albedo(wi.z()));
   // Density of reflecting at a visible normal: G1(o) D / (4 cos_o), G1 = 2 cos_o / (cos_o + root).
   const float coat_pdf = d / (2.0F * (wo.z() + view.root));

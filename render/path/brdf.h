@@ -23,14 +23,16 @@ public:
   /// What only depends on the direction of the eye.
   struct View {
     Vec3 wo;
-    Color base;              // 1/sr, but for what depends on wi
+    Color base;  // 1/sr, but for what depends on wi
+    Color f0;    // of the coat or metal
+    float f90;
     float coat_probability;  // of sampling the coat
     float alpha;
     float root;         // cos_o (1 + 2 Lambda(wo))
     float reflectance;  // about, in luminance
   };
-  /// `least_alpha`: the coat is taken to be at least as rough.
-  View view(const Vec3& wo, float least_alpha = 0.0F) const;
+  /// `least_alpha`: the coat is taken to be at least as rough. `base_color`: in place of the material's.
+  View view(const Vec3& wo, float least_alpha = 0.0F, const Color* base_color = nullptr) const;
 
   struct Value {
     Color f_cos = Color::Zero();  // BRDF times cos_i [1/sr]
@@ -47,24 +49,31 @@ public:
   float let_in(float cosine) const { return into_base(albedo(cosine)); }
   /// Likewise of light that is spread as the cosine below, with what the coat reflects back to the base
   /// coming again: 1 in the cosine's mean.
-  float let_out(float cosine) const { return let_in(cosine) / mean_let_in_; }
+  float let_out(float cosine) const { return let_in(cosine) / mean_into_base_; }
   /// Estimate of the luminance reflected of all that arrives.
   float reflectance(const View& v) const { return v.reflectance; }
 
 private:
+  /// Of the surface, by its base colour.
+  struct Tint {
+    Color base;  // its BRDF but for what the coat takes [1/sr]
+    Color f0;    // of the coat or metal
+    float f90;
+  };
+  Tint tint(const Color& base_color) const;
   CoatAlbedo albedo(float cosine) const;
   /// Part of the light from a direction that the dielectric coat lets through.
   float into_base(const CoatAlbedo& a) const { return 1.0F - coat_f0_ * a.scale - coat_f90_ * a.offset; }
 
   static constexpr int intervals = 64;
   std::array<CoatAlbedo, intervals + 1> albedo_;  // at cosines 0 .. 1
-  Color base_;                                    // its BRDF but for what the coat takes [1/sr]
-  Color f0_;                                      // of the coat or metal
-  float f90_;
+  float mean_into_base_ = 0.0F;                   // 2 int into_base(c) c dc
+  Tint tint_;                                     // of the material's base colour
+  float metallic_;
   float coat_f0_;  // of the dielectric
   float coat_f90_;
   float alpha_;
-  float mean_let_in_;
+  float base_share_;
 };
 
 /// Visible normals of GGX by spherical caps [Dupuy and Benyoub 2023]; the distribution of [Heitz 2018].

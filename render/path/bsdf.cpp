@@ -73,11 +73,11 @@ Bsdf::~Bsdf() = default;
 const Absorption& Bsdf::absorption() const { return layers_->absorption; }
 const CloudyInside& Bsdf::cloudy_inside() const { return layers_->inside; }
 
-Bsdf::View Bsdf::view(const Vec3& wo, float least_alpha) const {
+Bsdf::View Bsdf::view(const Vec3& wo, float least_alpha, const Color* base_color) const {
   View v{};
   v.wo = wo;
   const bool outside = wo.z() > 0.0F;
-  v.base = brdf_.view(outside || !transmits_ ? wo : mirrored(wo), least_alpha);
+  v.base = brdf_.view(outside || !transmits_ ? wo : mirrored(wo), least_alpha, base_color);
   if (!layers_) return v;
   const Layers& l = *layers_;
   const float cosine = wo.z();

@@ -36,7 +36,8 @@ public:
     Brdf::View coat = {};
     Dielectric::View glass = {};
   };
-  View view(const Vec3& wo, float least_alpha) const;
+  /// `base_color`: in place of the material's.
+  View view(const Vec3& wo, float least_alpha, const Color* base_color = nullptr) const;
   /// Of light that leaves the cloudy inside, spread as what the surface lets out.
   View emerging_view() const;
 

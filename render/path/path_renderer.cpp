@@ -47,12 +47,14 @@ public:
     shading_.emplace(scene_);
   }
 
+  void update_colors(int mesh, std::span<const Color> colors) override {
+    const Mesh& m = mesh_of(mesh);
+    check_colors("mesh '" + m.name + "'", m.colors.size(), colors);
+    geometry_->color(mesh, colors);
+  }
+
   void update_positions(int mesh, std::span<const Vec3> positions) override {
-    if (mesh < 0 || static_cast<std::size_t>(mesh) >= scene_.meshes.size()) {
-      throw SettingsError("mesh " + std::to_string(mesh) + " is not one of the scene's " +
-                          std::to_string(scene_.meshes.size()));
-    }
-    const Mesh& m = scene_.meshes[static_cast<std::size_t>(mesh)];
+    const Mesh& m = mesh_of(mesh);
     if (positions.size() != m.positions.size()) {
       throw SettingsError("mesh '" + m.name + "' has " + std::to_string(m.positions.size()) + " positions; " +
                           std::to_string(positions.size()) + " were given");
@@ -83,6 +85,14 @@ public:
   }
 
 private:
+  const Mesh& mesh_of(int mesh) const {
+    if (mesh < 0 || static_cast<std::size_t>(mesh) >= scene_.meshes.size()) {
+      throw SettingsError("mesh " + std::to_string(mesh) + " is not one of the scene's " +
+                          std::to_string(scene_.meshes.size()));
+    }
+    return scene_.meshes[static_cast<std::size_t>(mesh)];
+  }
+
   bool wants(const char* channel) const {
     return std::find(settings_.channels.begin(), settings_.channels.end(), channel) !=
            settings_.channels.end();

@@ -157,12 +157,17 @@ void PathTracer::arrive(std::uint32_t depth) {
       begin_vertex(geometry_.arrive_at_ground(ray, ahead.ground), ray, path, shading_.ground_brdf(), share);
     } else if (ahead.on_mesh) {
       const SurfacePoint at = geometry_.arrive(ray, hits_[i], ahead.mesh);
+      const std::optional<Color> color = geometry_.color_at(hits_[i], ahead.mesh);
       const Bsdf& bsdf = shading_.brdfs[hits_[i].mesh];
       // A ray that comes to a back side without having gone in, as from an eye within a body, was in it.
       const bool from_within = path.inside == nullptr && at.inside && bsdf.transmits();
       absorb(path, from_within ? &bsdf.absorption() : path.inside, ahead.mesh.t);
-      begin_vertex(at, ray, path, bsdf, 1.0F);
-      if (!at.inside && bsdf.is_cloudy()) enter_cloudy_inside(ray, hits_[i], at.beyond, depth);
+      begin_vertex(at, ray, path, bsdf, 1.0F, color ? &*color : nullptr);
+      if (!at.inside && bsdf.is_cloudy()) {
+        const Pair choice = path.samples.pair(dimension(depth, entry_dimension));
+        enter_cloudy_inside(ray, hits_[i], at.beyond, choice.u,
+                            path.samples.pair(dimension(depth, scatter_dimension)), depth);
+      }
     }
   }
 }
@@ -223,7 +228,7 @@ Color PathTracer::light_met(const Ray& ray, const Path& path, std::uint32_t from
 }
 
 void PathTracer::begin_vertex(const SurfacePoint& at, const Ray& ray, const Path& path, const Bsdf& brdf,
-                              float share) {
+                              float share, const Color* base_color) {
   Vertex& v = vertices_.emplace_back();
   const bool turned = at.inside && brdf.transmits();
   v.origin = turned ? at.beyond : at.origin;
@@ -232,8 +237,8 @@ void PathTracer::begin_vertex(const SurfacePoint& at, const Ray& ray, const Path
   make_frame(v.n, v.t, v.b);
   v.brdf = &brdf;
   const float least_alpha = path.least_pdf < 1.0F ? 0.5F * std::sqrt(1.0F - path.least_pdf) : 0.0F;
-  v.view =
-      brdf.view(Vec3(-ray.direction.dot(v.t), -ray.direction.dot(v.b), -ray.direction.dot(v.n)), least_alpha);
+  v.view = brdf.view(Vec3(-ray.direction.dot(v.t), -ray.direction.dot(v.b), -ray.direction.dot(v.n)),
+                     least_alpha, base_color);
   v.throughput = share * path.throughput;
   v.least_pdf = path.least_pdf;
   v.lane = path.lane;
@@ -241,56 +246,6 @@ void PathTracer::begin_vertex(const SurfacePoint& at, const Ray& ray, const Path
   v.inside = path.inside;
   v.clear = path.clear;
   v.compressed = path.compressed;
-}
-
-void PathTracer::add_light(std::uint32_t lane, const Color& light) {
-  const float most = light.maxCoeff();
-  const bool cut = clamp_ > 0.0F && indirect_[lane] != 0 && most > clamp_;
-  radiance_[lane] += cut ? Color(clamp_ / most * light) : light;
-}
-
-/// Over a distance in a clear inside; nullptr: air.
-void PathTracer::absorb(Path& path, const Absorption* inside, double distance) {
-  if (inside != nullptr && !inside->is_clear())
-    path.throughput *= inside->transmittance(static_cast<float>(distance));
-}
-
-/// Turns the last vertex into a walk in its body, or leaves what light does without entering.
-void PathTracer::enter_cloudy_inside(const Ray& ray, const MeshHit& hit, const Vec3& from,
-                                     std::uint32_t depth) {
-  Vertex& v = vertices_.back();
-  const Bsdf::Entry entry = v.brdf->entry(v.view);
-  if (entry.pick <= 0.0F) return;
-  const float u = v.samples.pair(dimension(depth, entry_dimension)).u;
-  if (u >= entry.pick) {
-    v.throughput /= 1.0F - entry.pick;
-    return;
-  }
-  const Vec3 into = sample_cosine(v.samples.pair(dimension(depth, scatter_dimension)));
-  Ray inward = ray;
-  inward.origin = from;
-  inward.direction = into.x() * v.t + into.y() * v.b - into.z() * v.n;
-  walks_.begin(inward, hit.mesh, v.brdf->cloudy_inside(), v.samples, depth);
-  v.throughput *= entry.part / entry.pick;
-  entered_.push_back(v);
-  vertices_.pop_back();
-}
-
-/// Where the walks come out, paths are at a surface that only lets light out.
-void PathTracer::leave_cloudy_insides() {
-  if (entered_.empty()) return;
-  const std::vector<RandomWalk::Exit>& exits = walks_.finish(geometry_);
-  for (std::size_t i = 0; i < entered_.size(); ++i) {
-    if (!exits[i].found) continue;
-    Vertex& v = vertices_.emplace_back(entered_[i]);
-    v.origin = exits[i].origin;
-    v.n = exits[i].normal;
-    make_frame(v.n, v.t, v.b);
-    v.view = v.brdf->emerging_view();
-    v.throughput *= exits[i].weight;
-    v.least_pdf = std::min(v.least_pdf, inv_pi);
-  }
-  entered_.clear();
 }
 
 bool PathTracer::all_lights_at(std::uint32_t depth) const {

@@ -95,9 +95,11 @@ private:
   Ahead look(const Ray&, const MeshHit&) const;
   Color seen_by_camera(const Ray&, Ahead&) const;
   Color light_met(const Ray&, const Path&, std::uint32_t from, const Ahead&) const;
-  void begin_vertex(const SurfacePoint&, const Ray&, const Path&, const Bsdf&, float share);
+  void begin_vertex(const SurfacePoint&, const Ray&, const Path&, const Bsdf&, float share,
+                    const Color* base_color = nullptr);
   static void absorb(Path&, const Absorption*, double distance);
-  void enter_cloudy_inside(const Ray&, const MeshHit&, const Vec3& from, std::uint32_t depth);
+  void enter_cloudy_inside(const Ray&, const MeshHit&, const Vec3& from, float choice, Pair way,
+                           std::uint32_t depth);
   void leave_cloudy_insides();
   void add_light(std::uint32_t lane, const Color&);
   bool all_lights_at(std::uint32_t depth) const;

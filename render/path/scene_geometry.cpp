@@ -39,7 +39,8 @@ SceneGeometry::SceneGeometry(const RenderScene& scene) : ground_(scene.ground) {
                        VertexNormals(m.triangles, m.positions.size()),
                        m.smooth,
                        true,
-                       m.material.transmission > 0.0F || m.material.subsurface > 0.0F});
+                       m.material.transmission > 0.0F || m.material.subsurface > 0.0F,
+                       m.colors});
   }
   caster_.build(scene.meshes);
 }
@@ -48,6 +49,10 @@ void SceneGeometry::move(int mesh, std::span<const Vec3> positions) {
   Moving& m = meshes_[static_cast<std::size_t>(mesh)];
   std::copy(positions.begin(), positions.end(), m.positions.begin());
   m.moved = true;
+}
+
+void SceneGeometry::color(int mesh, std::span<const Color> colors) {
+  meshes_[static_cast<std::size_t>(mesh)].colors.assign(colors.begin(), colors.end());
 }
 
 void SceneGeometry::commit() {
@@ -120,6 +125,16 @@ SurfacePoint SceneGeometry::arrive(const Ray& ray, const MeshHit& hit, const Tri
     beyond.y() = std::max(beyond.y(), ground_.height);
   }
   return {origin, facing(shading, wo), beyond, side < 0.0F};
+}
+
+std::optional<Color> SceneGeometry::color_at(const MeshHit& hit, const TriangleHit& at) const {
+  const Moving& m = meshes_[hit.mesh];
+  if (m.colors.empty()) return std::nullopt;
+  const Triangle& triangle = m.triangles[hit.triangle];
+  const auto u = static_cast<float>(at.u), v = static_cast<float>(at.v);
+  const Color color =
+      (1.0F - u - v) * m.colors[triangle[0]] + u * m.colors[triangle[1]] + v * m.colors[triangle[2]];
+  return Color(color.max(0.0F).min(1.0F));
 }
 
 double SceneGeometry::meet_ground(const Ray& ray) const {

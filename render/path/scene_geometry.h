@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,7 @@ public:
   explicit SceneGeometry(const RenderScene&);
 
   void move(int mesh, std::span<const Vec3> positions);
+  void color(int mesh, std::span<const Color> colors);
   /// Makes the normals and the hierarchy follow what has moved.
   void commit();
   const RayCaster& caster() const { return caster_; }
@@ -40,6 +42,8 @@ public:
   TriangleHit meet(const Ray&, const MeshHit&) const;
   /// The surface at a hit.
   SurfacePoint arrive(const Ray&, const MeshHit&, const TriangleHit&) const;
+  /// Its colour, of a mesh whose vertices have some.
+  std::optional<Color> color_at(const MeshHit&, const TriangleHit&) const;
 
   static constexpr double never = std::numeric_limits<double>::infinity();
   /// Distance to the ground's disc, from either side; `never` where a ray misses it.
@@ -56,7 +60,8 @@ private:
     VertexNormals topology;
     bool smooth;
     bool moved;
-    bool has_inside;  // rays go through
+    bool has_inside;            // rays go through
+    std::vector<Color> colors;  // a vertex; or none
   };
   std::vector<Moving> meshes_;
   Ground ground_;

@@ -14,7 +14,9 @@ void attribute(GLuint index, const Buffer& buffer, std::size_t vertex_count) {
   glEnableVertexAttribArray(index);
 }
 
-void fill(const Buffer& buffer, std::span<const Vec3> values) {
+template <class Value>
+void fill(const Buffer& buffer, std::span<const Value> values) {
+  static_assert(sizeof(Value) == sizeof(Vec3));
   glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
   glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(values.size_bytes()), values.data());
 }
@@ -49,22 +51,27 @@ MeshBuffers::MeshBuffers(const Mesh& mesh)
       topology_(mesh.triangles, mesh.positions.size()),
       material_(mesh.material),
       smooth_(mesh.smooth),
-      closed_(is_closed(mesh.triangles, mesh.positions)) {
+      closed_(is_closed(mesh.triangles, mesh.positions)),
+      colored_(!mesh.colors.empty()) {
   glBindVertexArray(vertex_array_.id());
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles_.size() * sizeof(Triangle)),
                triangles_.data(), GL_STATIC_DRAW);
   attribute(0, position_buffer_, mesh.positions.size());
   if (smooth_) attribute(1, normal_buffer_, mesh.positions.size());
-  upload(mesh.positions);
+  if (colored_) attribute(2, color_buffer_, mesh.positions.size());
+  upload(std::span<const Vec3>(mesh.positions));
+  if (colored_) upload(std::span<const Color>(mesh.colors));
 }
 
 void MeshBuffers::upload(std::span<const Vec3> positions) {
   fill(position_buffer_, positions);
   if (!smooth_) return;
   topology_.compute(triangles_, positions, normals_);
-  fill(normal_buffer_, normals_);
+  fill(normal_buffer_, std::span<const Vec3>(normals_));
 }
+
+void MeshBuffers::upload(std::span<const Color> colors) { fill(color_buffer_, colors); }
 
 void MeshBuffers::draw() const {
   glBindVertexArray(vertex_array_.id());

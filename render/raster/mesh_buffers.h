@@ -19,21 +19,24 @@ public:
   explicit MeshBuffers(const Mesh&);
 
   void upload(std::span<const Vec3> positions);
-  /// All triangles, with position and (when smooth) normal as attributes 0 and 1.
+  /// Of a colored() mesh.
+  void upload(std::span<const Color> colors);
+  /// All triangles, with position and, where it has them, normal and colour as attributes 0, 1 and 2.
   void draw() const;
 
   const Material& material() const { return material_; }
   bool smooth() const { return smooth_; }
   bool closed() const { return closed_; }
+  bool colored() const { return colored_; }
 
 private:
   std::vector<Triangle> triangles_;
   VertexNormals topology_;
   std::vector<Vec3> normals_;
   Material material_;
-  bool smooth_, closed_;
+  bool smooth_, closed_, colored_;
   VertexArray vertex_array_;
-  Buffer indices_, position_buffer_, normal_buffer_;
+  Buffer indices_, position_buffer_, normal_buffer_, color_buffer_;
 };
 
 }  // namespace lagomorph::render::raster

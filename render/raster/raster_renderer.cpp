@@ -14,6 +14,7 @@
 #include "render/raster/light_maps.h"
 #include "render/raster/mesh_buffers.h"
 #include "render/raster/optics_stand_in.h"
+#include "render/raster/seen_programs.h"
 #include "render/raster/shaders/shaders.h"
 #include "render/raster/targets.h"
 #include "render/raster/view_range.h"
@@ -39,13 +40,11 @@ RasterSettings checked(const RasterSettings& s) {
   return s;
 }
 
-/// All but those of LightMaps.
+/// All but those of LightMaps, and those that few scenes need.
 struct Programs {
   explicit Programs(int multisample)
       : samples_("#define SAMPLES " + std::to_string(multisample) + "\n"),
-        seen("seen mesh", {shaders::frame, shaders::mesh_vertex}, {shaders::frame, shaders::seen_fragment}),
-        seen_light("seen light", {shaders::frame, shaders::emitter_vertex},
-                   {"#define EMITTER\n", shaders::frame, shaders::seen_fragment}),
+        seen(multisample, false),
         ground_cover("ground cover", {shaders::frame, shaders::ground_vertex},
                      {shaders::frame, shaders::ground_point, shaders::ground_cover_fragment}),
         background("background", {shaders::full_screen_vertex},
@@ -58,10 +57,6 @@ struct Programs {
                          shaders::shade, shaders::ground_point, shaders::ground_fragment}),
         count("count of layers", {shaders::full_screen_vertex},
               {samples_.c_str(), shaders::frame, shaders::layers, shaders::count_fragment}),
-        layer(
-            "layer", {shaders::frame, shaders::layer_vertex},
-            {"#define SHADOWS\n", samples_.c_str(), shaders::frame, shaders::brdf, shaders::shadow,
-             shaders::sky, shaders::shade, shaders::ground_point, shaders::layers, shaders::layer_fragment}),
         mesh_depth("mesh depth", {shaders::frame, shaders::mesh_vertex},
                    {shaders::frame, shaders::mesh_depth_fragment}),
         ground_depth("ground depth", {shaders::frame, shaders::ground_vertex},
@@ -71,8 +66,8 @@ private:
   std::string samples_;
 
 public:
-  Program seen, seen_light, ground_cover, background, ground, shadowed_ground, count, layer, mesh_depth,
-      ground_depth;
+  SeenPrograms seen;
+  Program ground_cover, background, ground, shadowed_ground, count, mesh_depth, ground_depth;
 };
 
 class RasterRenderer final : public Renderer {
@@ -95,6 +90,7 @@ public:
   std::string_view name() const override { return "raster"; }
   void set_scene(const RenderScene&) override;
   void update_positions(int mesh, std::span<const Vec3> positions) override;
+  void update_colors(int mesh, std::span<const Color> colors) override;
   Image render(const Camera&, const FrameInfo&) override;
   std::string description() const override;
 
@@ -108,9 +104,14 @@ private:
     VertexArray no_attributes;
     std::vector<MeshBuffers> meshes;
     std::optional<Targets> targets;
-    std::optional<Program> mesh_number;  // compiled when it is asked for
+    std::optional<Program> mesh_number;   // compiled when it is asked for
+    std::optional<SeenPrograms> colored;  // likewise; used where a mesh has colours of its vertices
+    bool has_colors = false;
+
+    const SeenPrograms& seen() const { return has_colors ? *colored : programs.seen; }
   };
 
+  void check_mesh_number(int mesh) const;
   void upload_surfaces(const RenderScene&);
   void upload_frame(const Camera&);
   void draw_full_screen() const;
@@ -161,6 +162,9 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
     positions_.push_back(mesh.positions);
     body_ids_.push_back(mesh.body_id);
   }
+  gl_->has_colors = std::any_of(gl_->meshes.begin(), gl_->meshes.end(),
+                                [](const MeshBuffers& mesh) { return mesh.colored(); });
+  if (gl_->has_colors && !gl_->colored) gl_->colored.emplace(raster_.multisample, true);
   upload_surfaces(scene);
   gl_->maps.set_scene(scene_, block_);
   lights_are_stale_ = true;
@@ -178,11 +182,23 @@ void RasterRenderer::upload_surfaces(const RenderScene& scene) {
                surfaces.data(), GL_STATIC_DRAW);
 }
 
+void RasterRenderer::check_mesh_number(int mesh) const {
+  if (mesh >= 0 && static_cast<std::size_t>(mesh) < positions_.size()) return;
+  throw SettingsError("mesh " + std::to_string(mesh) + " is not one of the scene's " +
+                      std::to_string(positions_.size()));
+}
+
+void RasterRenderer::update_colors(int mesh, std::span<const Color> colors) {
+  check_mesh_number(mesh);
+  MeshBuffers& buffers = gl_->meshes[static_cast<std::size_t>(mesh)];
+  check_colors("mesh " + std::to_string(mesh),
+               buffers.colored() ? positions_[static_cast<std::size_t>(mesh)].size() : 0, colors);
+  context_->make_current();
+  buffers.upload(colors);
+}
+
 void RasterRenderer::update_positions(int mesh, std::span<const Vec3> positions) {
-  if (mesh < 0 || static_cast<std::size_t>(mesh) >= positions_.size()) {
-    throw SettingsError("mesh " + std::to_string(mesh) + " is not one of the scene's " +
-                        std::to_string(positions_.size()));
-  }
+  check_mesh_number(mesh);
   std::vector<Vec3>& current = positions_[static_cast<std::size_t>(mesh)];
   if (positions.size() != current.size()) {
     throw SettingsError("mesh " + std::to_string(mesh) + " has " + std::to_string(current.size()) +
@@ -216,9 +232,10 @@ void RasterRenderer::upload_frame(const Camera& camera) {
 Image RasterRenderer::render(const Camera& camera, const FrameInfo&) {
   context_->make_current();
   std::optional<Targets>& targets = gl_->targets;
-  if (!targets || targets->width() != camera.width() || targets->height() != camera.height()) {
+  if (!targets || targets->width() != camera.width() || targets->height() != camera.height() ||
+      targets->colors() != gl_->has_colors) {
     targets.reset();
-    targets.emplace(camera.width(), camera.height(), raster_.multisample);
+    targets.emplace(camera.width(), camera.height(), raster_.multisample, gl_->has_colors);
   }
   if (lights_are_stale_) gl_->maps.fit(scene_, positions_, block_);
   upload_frame(camera);
@@ -265,6 +282,7 @@ void RasterRenderer::draw_meshes(const Program& program) const {
     mesh.closed() ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
     glUniform1ui(program.location("surface"), surface++);
     glUniform1i(program.location("is_smooth"), mesh.smooth() ? 1 : 0);
+    glUniform1i(program.location("is_colored"), mesh.colored() ? 1 : 0);
     mesh.draw();
   }
 }
@@ -284,23 +302,22 @@ void RasterRenderer::draw_seen(bool behind_ground) const {
   const Programs& programs = gl_->programs;
   gl_->targets->bind_seen();
   glEnable(GL_DEPTH_TEST);
-  const std::array<GLuint, 4> nothing = {0, 0, 0, 0};
-  glClearBufferuiv(GL_COLOR, 0, nothing.data());
-  glClear(GL_DEPTH_BUFFER_BIT);
+  gl_->targets->clear_seen();
   if (behind_ground) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     draw_ground_cells(programs.ground_cover, true);
     draw_ground_cells(programs.ground_cover, false);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
-  draw_meshes(programs.seen);
-  programs.seen_light.use();
+  draw_meshes(gl_->seen().mesh);
+  const Program& light = gl_->seen().light;
+  light.use();
   glEnable(GL_CULL_FACE);
   glBindVertexArray(gl_->no_attributes.id());
   for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
     if (!scene_.lights[i].visible) continue;
-    glUniform1i(programs.seen_light.location("light"), static_cast<GLint>(i));
-    glUniform1ui(programs.seen_light.location("surface"), static_cast<GLuint>(1 + gl_->meshes.size() + i));
+    glUniform1i(light.location("light"), static_cast<GLint>(i));
+    glUniform1ui(light.location("surface"), static_cast<GLuint>(1 + gl_->meshes.size() + i));
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
 }
@@ -327,7 +344,7 @@ void RasterRenderer::draw_background() const {
 void RasterRenderer::draw_layers() const {
   const Programs& programs = gl_->programs;
   gl_->targets->bind_color();
-  gl_->targets->bind_seen_texture(GL_TEXTURE6);
+  gl_->targets->bind_seen_textures();
   glDisable(GL_CULL_FACE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
@@ -339,9 +356,10 @@ void RasterRenderer::draw_layers() const {
   glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  programs.layer.use();
+  const Program& layer = gl_->seen().layer;
+  layer.use();
   for (int i = 0; i < raster_.multisample; ++i) {
-    glUniform1i(programs.layer.location("layer"), i);
+    glUniform1i(layer.location("layer"), i);
     draw_full_screen();
   }
   glDepthMask(GL_TRUE);

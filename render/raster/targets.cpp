@@ -1,6 +1,7 @@
 #include "render/raster/targets.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 #include <tbb/blocked_range.h>
@@ -24,18 +25,27 @@ void copy_rows(const std::vector<float>& from, std::size_t stride, std::size_t c
 
 }  // namespace
 
-Targets::Targets(int width, int height, int samples) : width_(width), height_(height), samples_(samples) {
-  bind_seen();
+/// A texture of the bound target, with a value a sample.
+void Targets::attach_samples(const Texture& texture, GLenum format, GLenum attachment) const {
+  glBindTexture(sampled(), texture.id());
   if (samples_ > 1) {
-    glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, seen_.id());
-    glTexStorage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, GL_RGBA32UI, width, height, GL_TRUE);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE, seen_.id(), 0);
+    glTexStorage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples_, format, width_, height_, GL_TRUE);
   } else {
-    glBindTexture(GL_TEXTURE_2D, seen_.id());
-    glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32UI, width, height);
+    glTexStorage2D(GL_TEXTURE_2D, 1, format, width_, height_);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, seen_.id(), 0);
+  }
+  glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, sampled(), texture.id(), 0);
+}
+
+Targets::Targets(int width, int height, int samples, bool colors)
+    : width_(width), height_(height), samples_(samples) {
+  bind_seen();
+  attach_samples(seen_, GL_RGBA32UI, GL_COLOR_ATTACHMENT0);
+  if (colors) {
+    attach_samples(colors_.emplace(), GL_RGBA16F, GL_COLOR_ATTACHMENT1);
+    constexpr std::array<GLenum, 2> both = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    glDrawBuffers(2, both.data());
   }
   glBindRenderbuffer(GL_RENDERBUFFER, seen_depth_.id());
   glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples > 1 ? samples : 0, GL_DEPTH_COMPONENT32F, width,
@@ -53,9 +63,20 @@ Targets::Targets(int width, int height, int samples) : width_(width), height_(he
   check_framebuffer("picture");
 }
 
-void Targets::bind_seen_texture(GLenum unit) const {
-  glActiveTexture(unit);
-  glBindTexture(samples_ > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, seen_.id());
+void Targets::clear_seen() const {
+  constexpr std::array<GLuint, 4> nothing = {0, 0, 0, 0};
+  constexpr std::array<GLfloat, 4> no_color = {};
+  glClearBufferuiv(GL_COLOR, 0, nothing.data());
+  if (colors_) glClearBufferfv(GL_COLOR, 1, no_color.data());
+  glClear(GL_DEPTH_BUFFER_BIT);
+}
+
+void Targets::bind_seen_textures() const {
+  glActiveTexture(GL_TEXTURE6);
+  glBindTexture(sampled(), seen_.id());
+  if (!colors_) return;
+  glActiveTexture(GL_TEXTURE12);
+  glBindTexture(sampled(), colors_->id());
 }
 
 void Targets::bind_depth() {

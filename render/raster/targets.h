@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "render/image.h"
@@ -10,16 +11,20 @@ namespace lagomorph::render::raster {
 /// What a picture of one size is drawn to.
 class Targets {
 public:
-  /// `samples` is 1 or 4. Throws DeviceError when they cannot be had.
-  Targets(int width, int height, int samples);
+  /// `samples` is 1 or 4; `colors`: with the vertices' colours of what is seen. Throws DeviceError when they
+  /// cannot be had.
+  Targets(int width, int height, int samples, bool colors);
 
   int width() const { return width_; }
   int height() const { return height_; }
+  bool colors() const { return colors_.has_value(); }
 
   /// Binds the samples that say what is seen, with a depth buffer.
   void bind_seen() const { bind(seen_target_, width_, height_); }
-  /// Binds those samples as a texture of this unit.
-  void bind_seen_texture(GLenum unit) const;
+  /// Says of all samples that nothing is seen.
+  void clear_seen() const;
+  /// Binds those samples, and their colours, as the textures that the shaders read.
+  void bind_seen_textures() const;
   /// Binds the picture, linear colour, with another depth buffer.
   void bind_color() const { bind(color_target_, width_, height_); }
   /// Binds a channel of one value a pixel, with the picture's depth buffer.
@@ -31,8 +36,12 @@ public:
   void read_values(std::vector<float>&);
 
 private:
+  GLenum sampled() const { return samples_ > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D; }
+  void attach_samples(const Texture&, GLenum format, GLenum attachment) const;
+
   int width_, height_, samples_;
   Texture seen_, color_, depth_channel_;
+  std::optional<Texture> colors_;
   Renderbuffer seen_depth_, depth_;
   Framebuffer seen_target_, color_target_, depth_target_;
   bool has_depth_channel_ = false;

@@ -13,23 +13,6 @@
 
 namespace lagomorph::sim {
 
-namespace {
-
-/// ψ's volumetric part: k = J ∂/∂J and ∂k/∂log J of W(-a log J)/a. [Pa]
-struct Volumetric {
-  double psi = 0.0, k = 0.0, dk = 0.0;
-  Volumetric(const StressStrainCurve& curve, double J) {
-    const double a = curve.poisson() / (1.0 - 2.0 * curve.poisson());
-    if (a == 0.0) return;
-    const StressStrainCurve::Values w = curve.at(-a * std::log(J));
-    psi = w.W / a;
-    k = -w.G;
-    dk = a * w.dG_dx;
-  }
-};
-
-}  // namespace
-
 StressStrain StressStrain::from_settings(const MaterialSettings& s, const std::string& where) {
   if (s.mu || s.lambda || s.C || s.D || s.C10 || s.C01 || s.bulk || s.preset != "none")
     throw InputError(where + ": " + kName + " takes data, poisson and young, and no other constants");
@@ -45,16 +28,16 @@ double StressStrain::psi(const Mat3& F) const {
   const double J = determinant(F);
   if (!(J > 0.0)) return std::numeric_limits<double>::infinity();
   const Vec3 stretches = RotationSvd(F).sigma;
-  double sum = Volumetric(*curve, J).psi;
-  for (int i = 0; i < 3; ++i) sum += curve->at(std::log(stretches[i])).W;
+  double sum = 0.5 * curve->lambda() * std::log(J) * std::log(J);
+  for (int i = 0; i < 3; ++i) sum += curve->at(std::log(stretches[i])).area;
   return sum;
 }
 
 Mat3 StressStrain::dpsi_dF(const Mat3& F) const {
   const RotationSvd svd(F);
   const Vec3& s = svd.sigma;
-  const double k = Volumetric(*curve, determinant(F)).k;
-  const Vec3 P = s.unaryExpr([&](double stretch) { return (curve->at(std::log(stretch)).G + k) / stretch; });
+  const double k = curve->lambda() * std::log(determinant(F));
+  const Vec3 P = s.unaryExpr([&](double stretch) { return (curve->at(std::log(stretch)).y + k) / stretch; });
   return svd.U * P.asDiagonal() * svd.V.transpose();
 }
 
@@ -64,12 +47,12 @@ Mat3 StressStrain::dpsi_dF(const Mat3& F) const {
 Mat9 StressStrain::hessian(const Mat3& F, bool projected) const {
   const RotationSvd svd(F);
   const Vec3& s = svd.sigma;
-  const Volumetric volume(*curve, determinant(F));
+  const double k = curve->lambda() * std::log(determinant(F));
   Vec3 g, dg;  // G/λ and its derivative
   for (int i = 0; i < 3; ++i) {
-    const StressStrainCurve::Values w = curve->at(std::log(s[i]));
-    g[i] = w.G / s[i];
-    dg[i] = (w.dG_dx - w.G) / (s[i] * s[i]);
+    const HermiteCurve::Values w = curve->at(std::log(s[i]));
+    g[i] = w.y / s[i];
+    dg[i] = (w.slope - w.y) / (s[i] * s[i]);
   }
   Mat9 H = Mat9::Zero();
   const auto add = [&](double eigenvalue, const Mat3& q) {
@@ -79,23 +62,23 @@ Mat9 StressStrain::hessian(const Mat3& F, bool projected) const {
   };
   Mat3 A;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) A(i, j) = volume.dk / (s[i] * s[j]);
-    A(i, i) += dg[i] - volume.k / (s[i] * s[i]);
+    for (int j = 0; j < 3; ++j) A(i, j) = curve->lambda() / (s[i] * s[j]);
+    A(i, i) += dg[i] - k / (s[i] * s[i]);
   }
   for (int n = 0; n < 3; ++n) {
     const int i = (n + 1) % 3, j = (n + 2) % 3;
     const double sum = s[i] + s[j], difference = s[i] - s[j], middle = 0.5 * sum;
     double slope = (g[i] - g[j]) / difference;
     if (std::abs(difference) < 1e-5 * sum) {  // the quotient would lose digits; the slope there does not
-      const StressStrainCurve::Values w = curve->at(std::log(middle));
-      slope = (w.dG_dx - w.G) / (middle * middle);
+      const HermiteCurve::Values w = curve->at(std::log(middle));
+      slope = (w.slope - w.y) / (middle * middle);
     }
     Mat3 q = Mat3::Zero();
     q(i, j) = std::sqrt(0.5);
     q(j, i) = -q(i, j);
-    add((g[i] + g[j] + volume.k * sum / (s[i] * s[j])) / sum, q);
+    add((g[i] + g[j] + k * sum / (s[i] * s[j])) / sum, q);
     q(j, i) = q(i, j);
-    add(slope - volume.k / (s[i] * s[j]), q);
+    add(slope - k / (s[i] * s[j]), q);
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> stretches(A);
   for (int n = 0; n < 3; ++n) add(stretches.eigenvalues()[n], stretches.eigenvectors().col(n).asDiagonal());

@@ -8,11 +8,11 @@
 
 namespace lagomorph::sim {
 
-/// ψ = Σ_i W(log λ_i) + W(-a log J)/a, a = nu/(1 - 2nu): a density by principal stretches that meets data of
-/// uniaxial loading exactly, with free sides and lateral stretch λ^(-nu). Not defined for J <= 0, where it is
-/// +inf. For data of T = E log λ it is Hencky's. [Valanis, Landel 1967, "The Strain-Energy Function of a
-/// Hyperelastic Material in Terms of the Extension Ratios"; Xu, Sin, Zhu, Barbic 2015, "Nonlinear Material
-/// Design Using Principal Stretches"; W: see StressStrainCurve]
+/// ψ = Σ_i W(log λ_i) + lambda/2 log² J: a density by principal stretches that meets data of uniaxial loading
+/// with free sides at its points. Not defined for J <= 0, where it is +inf. For data of T = E log λ it is
+/// Hencky's. [Valanis, Landel 1967, "The Strain-Energy Function of a Hyperelastic Material in Terms of the
+/// Extension Ratios"; Xu, Sin, Zhu, Barbic 2015, "Nonlinear Material Design Using Principal Stretches"; W and
+/// lambda: see StressStrainCurve]
 struct StressStrain {
   static constexpr const char* kName = "stress_strain";
   static constexpr bool kNeedsPositiveJ = true;

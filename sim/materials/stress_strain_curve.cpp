@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
 #include "sim/error.h"
 #include "sim/text.h"
@@ -11,7 +11,7 @@ namespace lagomorph::sim {
 
 namespace {
 
-constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+using Knot = HermiteCurve::Knot;
 
 void check_data(const std::vector<std::array<double, 2>>& data, const std::string& where) {
   if (data.empty()) throw InputError(where + ": data has no points; give [[strain, stress], ...]");
@@ -28,128 +28,138 @@ void check_data(const std::vector<std::array<double, 2>>& data, const std::strin
     throw InputError(where + ": data has no point but the origin; give one with another strain");
 }
 
-}  // namespace
-
-StressStrainCurve::StressStrainCurve(const std::vector<std::array<double, 2>>& data, double young,
-                                     double poisson, const std::string& where)
-    : poisson_(poisson) {
-  check_data(data, where);
-  for (const auto& [strain, stress] : data)
-    knots_.push_back({std::log1p(strain), (1.0 + strain) * stress, 0.0});
-  const auto by_x = [](const Knot& a, const Knot& b) { return a.x < b.x; };
-  std::sort(knots_.begin(), knots_.end(), by_x);
-  const auto at_rest = std::lower_bound(knots_.begin(), knots_.end(), Knot{0.0, 0.0, 0.0}, by_x);
-  const auto origin = static_cast<std::size_t>(at_rest - knots_.begin());
-  if (at_rest == knots_.end() || at_rest->x != 0.0) knots_.insert(at_rest, {0.0, 0.0, 0.0});
-  for (std::size_t i = 1; i < knots_.size(); ++i) {
-    const Knot &a = knots_[i - 1], &b = knots_[i];
-    if (!(a.x < b.x))
-      throw InputError(where + ": data has strain " + short_number(std::expm1(a.x)) +
-                       " twice; give each its own");
-    if (!(a.T < b.T))
-      throw InputError(where + ": data: (1 + strain) stress falls from " + short_number(a.T) + " Pa to " +
-                       short_number(b.T) + " Pa between the strains " + short_number(std::expm1(a.x)) +
-                       " and " + short_number(std::expm1(b.x)) + "; it must grow");
-  }
-  set_slopes();
-  if (young > 0.0) {
-    const double scale = young / knots_[origin].slope;
-    for (Knot& k : knots_) {
-      k.T *= scale;
-      k.slope *= scale;
-    }
-  }
-  young_ = knots_[origin].slope;
-  for (const Knot& k : knots_) steepest_ = std::max(steepest_, k.slope);
-  // S from the origin outwards: ∫ of the cubic between two knots is h/2 (T_0 + T_1) + h²/12 (m_0 - m_1).
-  const auto area = [](const Knot& a, const Knot& b) {
-    const double h = b.x - a.x;
-    return 0.5 * h * (a.T + b.T) + h * h / 12.0 * (a.slope - b.slope);
-  };
-  for (std::size_t i = origin + 1; i < knots_.size(); ++i)
-    knots_[i].S = knots_[i - 1].S + area(knots_[i - 1], knots_[i]);
-  for (std::size_t i = origin; i-- > 0;) knots_[i].S = knots_[i + 1].S - area(knots_[i], knots_[i + 1]);
-  close_the_sum_at_rest(origin);
-}
-
 /// Within: the weighted harmonic mean of both secants, which keeps the cubics monotone. [Fritsch and Butland
 /// 1984, "A Method for Constructing Local Monotone Piecewise Cubic Interpolants"] At the ends: the parabola
 /// through three points, held within 1/3 and 3 of the secant.
-void StressStrainCurve::set_slopes() {
-  const std::size_t n = knots_.size();
-  const auto h = [&](std::size_t i) { return knots_[i + 1].x - knots_[i].x; };
-  const auto secant = [&](std::size_t i) { return (knots_[i + 1].T - knots_[i].T) / h(i); };
+void set_slopes(std::vector<Knot>& knots) {
+  const std::size_t n = knots.size();
+  const auto h = [&](std::size_t i) { return knots[i + 1].x - knots[i].x; };
+  const auto secant = [&](std::size_t i) { return (knots[i + 1].y - knots[i].y) / h(i); };
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const double a = 2.0 * h(i) + h(i - 1), b = h(i) + 2.0 * h(i - 1);
-    knots_[i].slope = (a + b) / (a / secant(i - 1) + b / secant(i));
+    knots[i].slope = (a + b) / (a / secant(i - 1) + b / secant(i));
   }
   const auto end_slope = [&](std::size_t i, std::size_t next) {
     const double slope =
         n > 2 ? ((2.0 * h(i) + h(next)) * secant(i) - h(i) * secant(next)) / (h(i) + h(next)) : secant(i);
     return std::clamp(slope, secant(i) / 3.0, 3.0 * secant(i));
   };
-  knots_.front().slope = end_slope(0, 1);
-  knots_.back().slope = end_slope(n - 2, n > 2 ? n - 3 : 0);
+  knots.front().slope = end_slope(0, 1);
+  knots.back().slope = end_slope(n - 2, n > 2 ? n - 3 : 0);
 }
 
-/// T is Σ_k a_k x^k on either side of 0, and (-nu)^n x changes sides: with the other side's b_k,
-/// c_k = (a_k + (-nu)^k b_k) / (1 - nu^(2k)).
-void StressStrainCurve::close_the_sum_at_rest(std::size_t origin) {
-  const double m = knots_[origin].slope;
-  std::array<std::array<double, 4>, 2> T = {};
-  const auto cubic = [&](const Knot& end) {
-    const double secant = end.T / end.x;
-    return std::array<double, 4>{0.0, m, (3.0 * secant - 2.0 * m - end.slope) / end.x,
-                                 (m + end.slope - 2.0 * secant) / (end.x * end.x)};
-  };
-  const bool has_low = origin > 0, has_high = origin + 1 < knots_.size();
-  T[0] = has_low ? cubic(knots_[origin - 1]) : std::array<double, 4>{0.0, m, 0.0, 0.0};
-  T[1] = has_high ? cubic(knots_[origin + 1]) : std::array<double, 4>{0.0, m, 0.0, 0.0};
-  low_ = has_low ? knots_[origin - 1].x : -kEverywhere;
-  high_ = has_high ? knots_[origin + 1].x : kEverywhere;
-  for (std::size_t side = 0; side < 2; ++side) {
-    double power = 1.0;  // (-nu)^k
-    for (std::size_t k = 1; k < 4; ++k) {
-      power *= -poisson_;
-      closed_[side][k] = (T[side][k] + power * T[1 - side][k]) / (1.0 - power * power);
+/// The data by growing x = log λ, with the origin.
+std::vector<Knot> knots_of(const std::vector<std::array<double, 2>>& data, const std::string& where) {
+  std::vector<Knot> knots;
+  for (const auto& [strain, stress] : data)
+    knots.push_back({std::log1p(strain), (1.0 + strain) * stress, 0.0});
+  if (std::none_of(knots.begin(), knots.end(), [](const Knot& k) { return k.x == 0.0; }))
+    knots.push_back({0.0, 0.0, 0.0});
+  std::sort(knots.begin(), knots.end(), [](const Knot& a, const Knot& b) { return a.x < b.x; });
+  for (std::size_t i = 1; i < knots.size(); ++i) {
+    const Knot &a = knots[i - 1], &b = knots[i];
+    if (!(a.x < b.x))
+      throw InputError(where + ": data has strain " + short_number(std::expm1(a.x)) +
+                       " twice; give each its own");
+    if (!(a.y < b.y))
+      throw InputError(where + ": data: (1 + strain) stress falls from " + short_number(a.y) + " Pa to " +
+                       short_number(b.y) + " Pa between the strains " + short_number(std::expm1(a.x)) +
+                       " and " + short_number(std::expm1(b.x)) + "; it must grow");
+  }
+  return knots;
+}
+
+/// Where G is found: the data, as many places again between them and beyond, where T is straight and G is
+/// nearly.
+std::vector<Knot> grid_around(const std::vector<Knot>& data) {
+  constexpr int within = 96, beyond = 48;
+  const double range = std::max(-data.front().x, data.back().x);
+  std::vector<double> places;
+  for (const Knot& k : data) places.push_back(k.x);
+  for (const double side : {-1.0, 1.0}) {
+    for (int i = 1; i <= within; ++i) places.push_back(side * range * i / within);
+    for (int i = 1; i <= beyond; ++i) places.push_back(side * range * (1.0 + 3.0 * i / beyond));
+  }
+  std::sort(places.begin(), places.end());
+  std::vector<Knot> grid;
+  for (const double x : places) {
+    if (grid.empty() || x - grid.back().x > 1e-9 * range) grid.push_back({x, 0.0, 0.0});
+  }
+  // The data themselves stay, not what lies beside them.
+  for (const Knot& k : data) {
+    const auto nearest = std::min_element(grid.begin(), grid.end(), [&](const Knot& a, const Knot& b) {
+      return std::abs(a.x - k.x) < std::abs(b.x - k.x);
+    });
+    nearest->x = k.x;
+  }
+  return grid;
+}
+
+}  // namespace
+
+StressStrainCurve::StressStrainCurve(const std::vector<std::array<double, 2>>& data, double young,
+                                     double poisson, const std::string& where)
+    : poisson_(poisson) {
+  check_data(data, where);
+  std::vector<Knot> knots = knots_of(data, where);
+  set_slopes(knots);
+  const double at_rest =
+      std::find_if(knots.begin(), knots.end(), [](const Knot& k) { return k.x == 0.0; })->slope;
+  if (young > 0.0) {
+    for (Knot& k : knots) {
+      k.y *= young / at_rest;
+      k.slope *= young / at_rest;
     }
   }
+  young_ = young > 0.0 ? young : at_rest;
+  lambda_ = young_ * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+  for (const Knot& k : knots) steepest_ = std::max(steepest_, k.slope);
+  density_ = HermiteCurve(grid_around(knots));
+  stress_ = HermiteCurve(std::move(knots));
+  find_density();
 }
 
-StressStrainCurve::Stress StressStrainCurve::stress(double x) const {
-  const auto along = [&](const Knot& end) -> Stress {
-    const double d = x - end.x;
-    return {end.S + d * (end.T + 0.5 * d * end.slope), end.T + d * end.slope, end.slope};
-  };
-  if (!(x > knots_.front().x)) return along(knots_.front());
-  if (x >= knots_.back().x) return along(knots_.back());
-  const auto above = std::upper_bound(knots_.begin(), knots_.end(), x,
-                                      [](double value, const Knot& k) { return value < k.x; });
-  const Knot &a = *(above - 1), &b = *above;
-  const double h = b.x - a.x, d = x - a.x, secant = (b.T - a.T) / h;
-  const double c2 = (3.0 * secant - 2.0 * a.slope - b.slope) / h;
-  const double c3 = (a.slope + b.slope - 2.0 * secant) / (h * h);
-  return {a.S + d * (a.T + d * (0.5 * a.slope + d * (c2 / 3.0 + 0.25 * d * c3))),
-          a.T + d * (a.slope + d * (c2 + d * c3)), a.slope + d * (2.0 * c2 + 3.0 * d * c3)};
-}
-
-StressStrainCurve::Values StressStrainCurve::at(double x) const {
-  Values sum;
-  double power = 1.0;  // (-nu)^n
-  while (!(x >= low_ && x <= high_ && -poisson_ * x >= low_ && -poisson_ * x <= high_)) {
-    const Stress s = stress(x);
-    sum.W += s.S / power;
-    sum.G += s.T;
-    sum.dG_dx += power * s.dT_dx;
-    power *= -poisson_;
-    x *= -poisson_;
-    if (poisson_ == 0.0 || !std::isfinite(x)) return sum;
+double StressStrainCurve::lateral(double x) const {
+  if (lambda_ == 0.0) return 0.0;
+  // G' > -lambda, as T' > 0: what is to vanish grows with y.
+  double low = -std::abs(x), high = std::abs(x), y = -poisson_ * x;
+  for (int i = 0; i < 100; ++i) {
+    const HermiteCurve::Values g = density_.at(y);
+    const double left = lambda_ * (x + 2.0 * y) + g.y;
+    (left > 0.0 ? high : low) = y;
+    double next = y - left / (2.0 * lambda_ + g.slope);
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::abs(next - y) <= 1e-16 * std::abs(x)) return next;
+    y = next;
   }
-  const std::array<double, 4>& c = closed_[x < 0.0 ? 0 : 1];
-  sum.W += x * x * (c[1] / 2.0 + x * (c[2] / 3.0 + x * c[3] / 4.0)) / power;
-  sum.G += x * (c[1] + x * (c[2] + x * c[3]));
-  sum.dG_dx += power * (c[1] + x * (2.0 * c[2] + x * 3.0 * c[3]));
-  return sum;
+  return y;
+}
+
+/// From the origin outwards, again until nothing changes: a knot near the origin leans on itself.
+void StressStrainCurve::find_density() {
+  const std::vector<Knot>& knots = density_.knots();
+  for (std::size_t i = 0; i < knots.size(); ++i)
+    density_.set(i, young_ / (1.0 + poisson_) * knots[i].x, young_ / (1.0 + poisson_));
+  std::vector<std::size_t> outwards(knots.size());
+  std::iota(outwards.begin(), outwards.end(), 0);
+  std::stable_sort(outwards.begin(), outwards.end(),
+                   [&](std::size_t a, std::size_t b) { return std::abs(knots[a].x) < std::abs(knots[b].x); });
+  const double largest = std::max(-stress_.at(knots.front().x).y, stress_.at(knots.back().x).y);
+  for (int sweep = 0; sweep < 200; ++sweep) {
+    double change = 0.0;
+    for (const std::size_t i : outwards) {
+      const double x = knots[i].x;
+      if (x == 0.0) continue;
+      const HermiteCurve::Values T = stress_.at(x);
+      const HermiteCurve::Values side = density_.at(lateral(x));
+      const double slope =
+          lambda_ == 0.0 ? T.slope : T.slope - lambda_ * side.slope / (2.0 * lambda_ + side.slope);
+      change = std::max(change, std::abs(T.y + side.y - knots[i].y));
+      density_.set(i, T.y + side.y, slope);
+    }
+    if (change <= 1e-15 * largest) break;
+  }
+  density_.integrate();
 }
 
 }  // namespace lagomorph::sim

@@ -12,11 +12,18 @@ void main() {
 const char* const mesh_vertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
+#ifdef COLORS
+layout(location = 2) in vec3 color;
+out vec3 vertex_color;
+#endif
 out vec3 world;
 out vec3 smooth_normal;
 void main() {
   world = position;
   smooth_normal = normal;
+#ifdef COLORS
+  vertex_color = color;
+#endif
   gl_Position = clip_from_world * vec4(position, 1.0);
 }
 )";
@@ -63,8 +70,8 @@ void main() {
 }
 )";
 
-// What is seen in each sample: depth, the two normals, and 1 + the number of the surface. Triangles are small
-// and their pixels many, so that nothing is lit here.
+// What is seen in each sample: depth, the two normals, and 1 + the number of the surface; with COLORS the vertices'
+// colour where they have one, w 1. Triangles are small and their pixels many, so that nothing is lit here.
 const char* const seen_fragment = R"(
 #ifndef EMITTER
 in vec3 smooth_normal;
@@ -72,7 +79,14 @@ uniform bool is_smooth;
 #endif
 in vec3 world;
 uniform uint surface;
-out uvec4 texel;
+#ifdef COLORS
+#ifndef EMITTER
+in vec3 vertex_color;
+uniform bool is_colored;
+#endif
+layout(location = 1) out vec4 tint;
+#endif
+layout(location = 0) out uvec4 texel;
 
 // Unit vectors on the octahedron, unfolded [Meyer et al. 2010].
 uint octahedral(vec3 n) {
@@ -88,6 +102,12 @@ void main() {
   if (is_smooth) n = normalize(gl_FrontFacing ? smooth_normal : -smooth_normal);
 #endif
   texel = uvec4(floatBitsToUint(dot(world - eye.xyz, forward.xyz)), octahedral(n), octahedral(flat_normal), surface + 1u);
+#ifdef COLORS
+  tint = vec4(0.0);
+#ifndef EMITTER
+  if (is_colored) tint = vec4(clamp(vertex_color, 0.0, 1.0), 1.0);
+#endif
+#endif
 }
 )";
 
@@ -95,8 +115,14 @@ void main() {
 const char* const layers = R"(
 #if SAMPLES > 1
 layout(binding = 6) uniform usampler2DMS seen_samples;
+#ifdef COLORS
+layout(binding = 12) uniform sampler2DMS tint_samples;
+#endif
 #else
 layout(binding = 6) uniform usampler2D seen_samples;
+#ifdef COLORS
+layout(binding = 12) uniform sampler2D tint_samples;
+#endif
 #endif
 
 vec3 direction_of(vec2 p) {
@@ -173,6 +199,9 @@ void main() {
   float depth = 0.0;
   vec4 normals = vec4(0.0);
   uint id = 1u;
+#ifdef COLORS
+  vec4 tint = vec4(0.0);
+#endif
   for (int s = 0; s < SAMPLES; ++s) {
     float before = l.samples[s].depth < to_ground ? 1.0 : 0.0;
     if (l.layer[s] >= 0) covered += before;
@@ -182,6 +211,9 @@ void main() {
     depth += l.samples[s].depth;
     normals += l.samples[s].normals;
     id = l.samples[s].id;
+#ifdef COLORS
+    tint += texelFetch(tint_samples, ivec2(gl_FragCoord.xy), s);
+#endif
   }
   vec3 origin, direction;
   pixel_ray(origin, direction);
@@ -194,6 +226,9 @@ void main() {
   p.normal = there ? direction_of(normals.xy / count) : v;
   p.flat_normal = there ? direction_of(normals.zw / count) : v;
   Surface surface = surfaces[id - 1u];
+#ifdef COLORS
+  if (tint.w > 0.0) surface.color.rgb = tint.rgb / tint.w;
+#endif
   vec3 lit = shade(p, v, surface, sky_seen(p.x, p.normal), radiance_from_below(p.x));
   if (surface.color.w > 0.5) lit = surface.color.rgb;
   color.rgb = before_ground * lit;

@@ -115,7 +115,7 @@ TEST(AdvanceFrame, EndsWhereNoStepIsAccurateEnough) {
   const State before = run.state;
   const FrameReport report = run.advance();
   EXPECT_EQ(report.status, StepStatus::inaccurate);
-  EXPECT_TRUE(report.reason.starts_with("frame 1: a step of 0.0125 s at t = 0 s ended inaccurate after "))
+  EXPECT_TRUE(report.reason.starts_with("frame 1: a step of 0.0125 s at t = 0 s was too inaccurate after "))
       << report.reason;
   EXPECT_TRUE(report.reason.ends_with(" m (tolerance 1e-12), halved 3 times")) << report.reason;
   EXPECT_EQ(run.state.q, before.q);

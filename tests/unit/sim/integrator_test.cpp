@@ -501,7 +501,7 @@ TEST(AdvanceFrame, LeavesTheStateWhereItWasWhenItCannotGoOn) {
   EXPECT_EQ(report.status, StepStatus::not_converged);
   EXPECT_EQ(report.halvings, 2);
   EXPECT_TRUE(
-      report.reason.starts_with("frame 2: a step of 0.05 s at t = 0.2 s ended not_converged after 1 Newton "
+      report.reason.starts_with("frame 2: a step of 0.05 s at t = 0.2 s did not converge after 1 Newton "
                                 "iterations with residual "))
       << report.reason;
   EXPECT_TRUE(report.reason.ends_with("(tolerance 1e-09), halved 2 times")) << report.reason;

@@ -29,6 +29,7 @@ public:
   void update_positions(int mesh, std::span<const render::Vec3> positions) override {
     meshes.at(static_cast<std::size_t>(mesh)).assign(positions.begin(), positions.end());
   }
+  void update_colors(int, std::span<const render::Color>) override {}
   render::Image render(const render::Camera&, const render::FrameInfo&) override { return {}; }
   std::string description() const override { return ""; }
 };

@@ -23,6 +23,7 @@ TEST(Record, ReadsBackWhatWasWritten) {
   EXPECT_EQ(to_json(records.at(3)), to_json(some_record(3)));
   EXPECT_EQ(to_json(records.at(12)), to_json(some_record(12, some_identity(), false)));
   EXPECT_FALSE(records.at(12).picture.has_value());
+  EXPECT_EQ(records.at(3).picture->ranges, some_record(3).picture->ranges);
   EXPECT_EQ(records.at(3).state->momentum, some_record(3).state->momentum);
   EXPECT_EQ(records.at(3).state->report.residual, 1e-9);
   EXPECT_TRUE(records.at(3).state->report.hit_rounding_floor);

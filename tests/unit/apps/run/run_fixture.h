@@ -53,6 +53,7 @@ inline FrameRecord some_record(int frame, const Identity& of = some_identity(), 
   picture.made_by = of.picture_hash();
   picture.of_state = state.sha256;
   picture.channels = {{"depth", sha256("depth " + std::to_string(frame))}};
+  picture.ranges = {{"bar", {-0.1, 1.0 / 3.0}}};
   picture.rendering_seconds = 0.5;
   picture.writing_seconds = 0.125;
   return record;

@@ -21,8 +21,8 @@ MaterialSettings measured(double poisson) {
 }
 
 /// F of uniaxial loading with free sides.
-Mat3 uniaxial(double stretch, double poisson) {
-  const double side = std::pow(stretch, -poisson);
+Mat3 uniaxial(const StressStrain& material, double stretch) {
+  const double side = std::exp(material.curve->lateral(std::log(stretch)));
   return Vec3(stretch, side, side).asDiagonal();
 }
 
@@ -31,7 +31,7 @@ TEST(StressStrain, MeetsTheDataOfUniaxialLoadingAndLeavesTheSidesFree) {
     const MaterialSettings settings = measured(poisson);
     const StressStrain material = StressStrain::from_settings(settings, "test");
     for (const auto& [strain, stress] : settings.data) {
-      const Mat3 P = material.dpsi_dF(uniaxial(1.0 + strain, poisson));
+      const Mat3 P = material.dpsi_dF(uniaxial(material, 1.0 + strain));
       EXPECT_NEAR(P(0, 0), stress, 1e-12 * 9e4) << poisson;
       EXPECT_NEAR(P(1, 1), 0.0, 1e-11 * 9e4) << poisson;
       EXPECT_NEAR(P(2, 2), 0.0, 1e-11 * 9e4) << poisson;
@@ -39,14 +39,47 @@ TEST(StressStrain, MeetsTheDataOfUniaxialLoadingAndLeavesTheSidesFree) {
   }
 }
 
-TEST(StressStrain, GrowsBetweenAndBeyondTheData) {
+TEST(StressStrain, KeepsItsCurveBetweenAndBeyondTheData) {
   const StressStrain material = StressStrain::from_settings(measured(0.45), "test");
   double last = -INFINITY;
   for (double x = -2.0; x <= 2.0; x += 0.01) {
     const double stretch = std::exp(x);
-    const double T = stretch * material.dpsi_dF(uniaxial(stretch, 0.45))(0, 0);
+    const double T = stretch * material.dpsi_dF(uniaxial(material, stretch))(0, 0);
     EXPECT_GT(T, last) << x;
+    EXPECT_NEAR(T, material.curve->stress(x).y, 1e-4 * 1.8e5) << x;  // T(1) of the data
     last = T;
+  }
+}
+
+TEST(StressStrain, ItsSidesFollowPoissonsRatioNearRest) {
+  for (const double poisson : {0.0, 0.2, 0.45, 0.49}) {
+    const StressStrain material = StressStrain::from_settings(measured(poisson), "test");
+    for (const double x : {-1e-5, 1e-5}) EXPECT_NEAR(material.curve->lateral(x) / x, -poisson, 1e-3);
+  }
+}
+
+/// What hangs by its data has a place to come to: the density grows from rest along every ray of log
+/// stretches, and along those of the volume and of equal biaxial stretches its stress does.
+TEST(StressStrain, IsBoundedFromBelow) {
+  for (const double poisson : {0.0, 0.3, 0.45, 0.49}) {
+    MaterialSettings settings = measured(poisson);
+    for (const bool one_sided : {false, true}) {
+      if (one_sided) settings.data = {{-0.3, -4e3}, {0.3, 4e3}, {0.6, 2.4e4}};
+      const StressStrain material = StressStrain::from_settings(settings, "test");
+      const auto psi = [&](const Vec3& x) { return material.psi(Vec3(x.array().exp()).asDiagonal()); };
+      for (int i = 0; i <= 24; ++i) {
+        for (int k = 0; k < 48; ++k) {
+          const double theta = M_PI * i / 24, phi = M_PI * k / 24;
+          const Vec3 ray(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+          double last = 0.0;
+          for (double r = 0.02; r < 2.5; r += 0.02) {
+            const double here = psi(r * ray);
+            ASSERT_GT(here, last) << poisson << " " << (r * ray).transpose();
+            last = here;
+          }
+        }
+      }
+    }
   }
 }
 
@@ -71,7 +104,7 @@ TEST(StressStrain, IsScaledToAYoungsModulus) {
   const StressStrain material = StressStrain::from_settings(s, "test");
   EXPECT_NEAR(material.curve->young(), 5e4, 1e-8);
   const double h = 1e-6;
-  EXPECT_NEAR(material.dpsi_dF(uniaxial(1.0 + h, 0.3))(0, 0) / h, 5e4, 1.0);
+  EXPECT_NEAR(material.dpsi_dF(uniaxial(material, 1.0 + h))(0, 0) / h, 5e4, 1.0);
 }
 
 TEST(StressStrain, TellsWhatIsWrong) {

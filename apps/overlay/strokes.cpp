@@ -1,4 +1,4 @@
-#include "apps/plot/strokes.h"
+#include "apps/overlay/strokes.h"
 
 #include <algorithm>
 #include <cmath>

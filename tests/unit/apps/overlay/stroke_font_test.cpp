@@ -1,4 +1,4 @@
-#include "apps/plot/stroke_font.h"
+#include "apps/overlay/stroke_font.h"
 
 #include <algorithm>
 #include <map>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/plot/glyphs.h"
+#include "apps/overlay/glyphs.h"
 #include "apps/preview/small_picture.h"
 
 namespace lagomorph::apps {

@@ -1,4 +1,4 @@
-#include "apps/plot/ticks.h"
+#include "apps/overlay/ticks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "apps/plot/stroke_font.h"
+#include "apps/overlay/stroke_font.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "apps/plot/glyphs.h"
-#include "apps/plot/strokes.h"
+#include "apps/overlay/glyphs.h"
+#include "apps/overlay/strokes.h"
 
 namespace lagomorph::apps {
 namespace {

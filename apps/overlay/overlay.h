@@ -1,0 +1,25 @@
+#pragma once
+
+#include "apps/overlay/strokes.h"
+#include "render/color.h"
+
+/// What is written over a finished picture. Sizes in pixels, colours in sRGB.
+namespace lagomorph::apps {
+
+struct Rectangle {
+  double left = 0, top = 0, right = 0, bottom = 0;
+};
+
+/// Sizes that go with a picture: a hundredth of its height, less where it is narrow.
+double overlay_unit(const render::Picture&);
+/// Height of capitals, large enough to read.
+double overlay_text_height(const render::Picture&);
+
+/// Blends a colour in; pixels that are covered in part take their part. What lies outside is cut off.
+void fill_rectangle(render::Picture&, const Rectangle&, const Color&, double opacity = 1.0);
+
+/// What text stands on: dark, and light writing on it reads on any picture.
+void draw_plate(render::Picture&, const Rectangle&);
+inline constexpr Color plate_ink = {244, 244, 246};
+
+}  // namespace lagomorph::apps

@@ -1,0 +1,152 @@
+#include "apps/overlay/color_bar.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "apps/overlay/overlay.h"
+
+namespace lagomorph::apps {
+namespace {
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+render::Picture plain(int width, int height, std::uint8_t value) {
+  return {width, height,
+          std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                                    value)};
+}
+
+Rgb pixel(const render::Picture& picture, int x, int y) {
+  const auto at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                       static_cast<std::size_t>(x));
+  return {picture.rgb[at], picture.rgb[at + 1], picture.rgb[at + 2]};
+}
+
+ColorBar stress(double low = 0.0, double high = 84321.0) {
+  return {"von Mises stress", "Pa", &render::find_colormap("viridis"), low, high};
+}
+
+std::string text(const BarLabels& labels) {
+  std::string all = labels.title + ":";
+  for (const BarLabel& label : labels.ticks) all += " " + label.text;
+  return all;
+}
+
+TEST(ColorBar, HasRoundNumbersInAShortUnit) {
+  EXPECT_EQ(text(labels_of(stress())), "von Mises stress (kPa): 0 20 40 60 80");
+  EXPECT_EQ(text(labels_of(stress(2.1e9, 2.35e9))), "von Mises stress (GPa): 2.10 2.15 2.20 2.25 2.30 2.35");
+  EXPECT_EQ(text(labels_of({"displacement", "m", nullptr, 0, 0.0123})), "displacement (mm): 0 5 10");
+  EXPECT_EQ(text(labels_of({"displacement", "m", nullptr, 0, 1.5})), "displacement (m): 0 0.5 1.0 1.5");
+  EXPECT_EQ(text(labels_of({"volume ratio J", "", nullptr, 0.93, 1.07})),
+            "volume ratio J: 0.94 0.96 0.98 1.00 1.02 1.04 1.06");
+  EXPECT_EQ(text(labels_of({"x", "", nullptr, -2e7, 2e7})), "x: -2e+07 -1e+07 0 1e+07 2e+07");
+  EXPECT_EQ(text(labels_of({"elastic energy density", "J/m^3", nullptr, -3, 6})),
+            "elastic energy density (J/m^3): -2 0 2 4 6");
+}
+
+TEST(ColorBar, TicksStandAtTheirValues) {
+  const ColorBar bar = stress(-3.7e4, 8.3e4);
+  const BarLabels labels = labels_of(bar);
+  ASSERT_GE(labels.ticks.size(), 4U);
+  for (const BarLabel& label : labels.ticks) {
+    EXPECT_NEAR(label.value, 1e3 * std::stod(label.text), 1e-6) << label.text;
+    EXPECT_TRUE(label.value >= bar.low && label.value <= bar.high) << label.text;
+  }
+}
+
+/// The rows of the bar, from the first to the last that is of the map's colours.
+TEST(ColorBar, ShowsTheMapFromBelowUpwards) {
+  for (const std::uint8_t ground : {std::uint8_t{0}, std::uint8_t{128}, std::uint8_t{255}}) {
+    render::Picture picture = plain(640, 360, ground);
+    draw_color_bars(picture, {stress()});
+    const auto near = [&](int x, int y, float value) {
+      const auto wanted = render::srgb_of(render::find_colormap("viridis"), value);
+      const Rgb is = pixel(picture, x, y);
+      for (std::size_t c = 0; c < 3; ++c)
+        if (std::abs(255.0F * wanted[c] - is[c]) > 2.0F) return false;
+      return true;
+    };
+    int column = -1, top = -1, bottom = -1;
+    for (int x = 320; x < 640 && column < 0; ++x) {
+      for (int y = 0; y < 360; ++y) {
+        if (near(x, y, 1.0F) && top < 0) top = y, column = x;
+        if (x == column && near(x, y, 0.0F)) bottom = y;
+      }
+    }
+    ASSERT_GE(column, 0);
+    ASSERT_GT(bottom - top, 120) << "two fifths of the picture";
+    for (int k = 0; k <= 8; ++k) {
+      const float value = static_cast<float>(k) / 8.0F;
+      const int y = bottom - static_cast<int>(std::lround(value * static_cast<float>(bottom - top)));
+      EXPECT_TRUE(near(column, y, value)) << k;
+    }
+  }
+}
+
+double luminance(const Rgb& c) {
+  return 0.2126 * render::linear_from_srgb(c[0] / 255.0F) + 0.7152 * render::linear_from_srgb(c[1] / 255.0F) +
+         0.0722 * render::linear_from_srgb(c[2] / 255.0F);
+}
+
+/// WCAG 2's least for small text is 4.5.
+TEST(ColorBar, ReadsOnLightAndDark) {
+  for (const std::uint8_t ground : {std::uint8_t{0}, std::uint8_t{120}, std::uint8_t{255}}) {
+    render::Picture picture = plain(32, 32, ground);
+    draw_plate(picture, {0, 0, 32, 32});
+    EXPECT_GE((luminance(plate_ink) + 0.05) / (luminance(pixel(picture, 9, 9)) + 0.05), 4.5) << int{ground};
+  }
+}
+
+int changed_columns(int width, int height) {
+  render::Picture picture = plain(width, height, 255);
+  draw_color_bars(picture, {stress()});
+  int count = 0;
+  for (int x = 0; x < width; ++x) {
+    bool changed = false;
+    for (int y = 0; y < height; ++y) changed = changed || pixel(picture, x, y) != Rgb{255, 255, 255};
+    count += changed ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(ColorBar, GrowsWithThePicture) {
+  const int small = changed_columns(1280, 720);
+  EXPECT_GT(small, 60);
+  EXPECT_NEAR(changed_columns(2560, 1440), 2 * small, 4);
+  EXPECT_EQ(changed_columns(24, 16), 0) << "no room";
+}
+
+TEST(ColorBar, SeveralStandBesideEachOther) {
+  render::Picture one = plain(1280, 720, 255), two = one, none = one;
+  const ColorBar other{"volume ratio J", "", &render::find_colormap("coolwarm"), 0.9, 1.1};
+  draw_color_bars(one, {stress()});
+  draw_color_bars(two, {stress(), other});
+  draw_color_bars(none, {});
+  EXPECT_EQ(none.rgb, plain(1280, 720, 255).rgb);
+  for (int y = 0; y < 720; ++y) {
+    for (int x = 0; x < 1280; ++x) {
+      if (pixel(one, x, y) != Rgb{255, 255, 255}) {
+        ASSERT_EQ(pixel(one, x, y), pixel(two, x, y));
+      }
+    }
+  }
+  EXPECT_NE(one.rgb, two.rgb);
+}
+
+TEST(Overlay, RectanglesCoverPixelsInPart) {
+  render::Picture picture = plain(6, 4, 200);
+  fill_rectangle(picture, {1.5, -3.0, 4.0, 2.25}, {0, 100, 200});
+  EXPECT_EQ(pixel(picture, 0, 0), (Rgb{200, 200, 200}));
+  EXPECT_EQ(pixel(picture, 1, 0), (Rgb{100, 150, 200}));
+  EXPECT_EQ(pixel(picture, 3, 1), (Rgb{0, 100, 200}));
+  EXPECT_EQ(pixel(picture, 3, 2), (Rgb{150, 175, 200}));
+  EXPECT_EQ(pixel(picture, 4, 1), (Rgb{200, 200, 200}));
+  fill_rectangle(picture, {-10, -10, 100, 100}, {0, 0, 0}, 0.5);
+  EXPECT_EQ(pixel(picture, 5, 3), (Rgb{100, 100, 100}));
+}
+
+}  // namespace
+}  // namespace lagomorph::apps
