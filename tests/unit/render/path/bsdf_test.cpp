@@ -38,7 +38,7 @@ double sampled_albedo(const Bsdf& bsdf, const Vec3& wo) {
 
 double integrated_albedo(const Bsdf& bsdf, const Vec3& wo) {
   const Bsdf::View view = bsdf.view(wo, 0.0F);
-  return sphere([&](const Vec3& wi) { return flux(bsdf, wo, wi, bsdf.evaluate(view, wi)); });
+  return sphere([&](const Vec3& wi, double) { return flux(bsdf, wo, wi, bsdf.evaluate(view, wi)); });
 }
 
 std::vector<Material> layered() {
@@ -109,7 +109,7 @@ TEST(Bsdf, DensitiesIntegrateToOneLessWhatFails) {
     for (const double cosine : {0.25, 0.8}) {
       const Vec3 wo = direction(cosine, 0.3);
       const Bsdf::View view = bsdf.view(wo, 0.0F);
-      const double total = sphere([&](const Vec3& wi) { return bsdf.evaluate(view, wi).pdf; });
+      const double total = sphere([&](const Vec3& wi, double) { return bsdf.evaluate(view, wi).pdf; });
       const int n = 65536;
       const FrameSamples numbers(6, 0, n);
       double there = 0.0;
@@ -121,8 +121,8 @@ TEST(Bsdf, DensitiesIntegrateToOneLessWhatFails) {
         there += 1.0 / n;
         mean += s.direction.cast<double>() / n;
       }
-      sphere([&](const Vec3& wi) {
-        expected += wi.cast<double>() * bsdf.evaluate(view, wi).pdf * sphere_weight();
+      sphere([&](const Vec3& wi, double solid_angle) {
+        expected += wi.cast<double>() * bsdf.evaluate(view, wi).pdf * solid_angle;
         return 0.0;
       });
       EXPECT_NEAR(total, there, 4e-3) << m.coat << " " << m.sheen << " " << m.transmission << " " << cosine;

@@ -87,12 +87,8 @@ TEST(Dielectric, EvaluatedItScattersAllLightToo) {
     for (const double cosine : {0.1, 0.5, 1.0, -0.2, -0.6, -0.95}) {
       const Vec3 wo = direction(cosine, 0.4);
       const Dielectric::View view = glass.view(wo);
-      double pdf = 0.0;
-      const double albedo = sphere([&](const Vec3& wi) {
-        const Brdf::Value value = glass.evaluate(view, wi);
-        pdf += value.pdf;
-        return value.f_cos.y() * gained(1.5, wo, wi);
-      });
+      const double albedo = sphere(
+          [&](const Vec3& wi, double) { return glass.evaluate(view, wi).f_cos.y() * gained(1.5, wo, wi); });
       EXPECT_NEAR(albedo, 1.0, 0.01) << roughness << " " << cosine;
     }
   }
@@ -112,9 +108,9 @@ TEST(Dielectric, DensityAndSamplesAgree) {
         return static_cast<std::size_t>(ring * spokes + spoke);
       };
       std::vector<double> expected(rings * spokes, 0.0), count(rings * spokes, 0.0);
-      const double total = sphere([&](const Vec3& wi) {
+      const double total = sphere([&](const Vec3& wi, double solid_angle) {
         const double pdf = glass.evaluate(view, wi).pdf;
-        expected[cell(wi)] += pdf * sphere_weight();
+        expected[cell(wi)] += pdf * solid_angle;
         return pdf;
       });
       const int n = 1 << 18;
@@ -149,7 +145,7 @@ TEST(Dielectric, IsReciprocalButForTheIndexSquared) {
     };
     const auto n2 = [](const Vec3& w) { return w.z() > 0.0F ? 1.0 : 2.25; };
     for (const double a : {0.2, 0.5, 0.9, -0.3, -0.8}) {
-      for (const double b : {0.3, 0.95, -0.25, -0.6, -0.99}) {
+      for (const double b : {0.3, 0.95, -0.25, -0.65, -0.99}) {
         // Across, nearly opposite: where the interface lets anything through.
         const Vec3 o = direction(a, 0.3), i = direction(b, 0.3 + pi + 0.2);
         const double there = f(o, i) / n2(o), back = f(i, o) / n2(i);

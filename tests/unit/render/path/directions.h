@@ -13,21 +13,20 @@ inline Vec3 direction(double cosine, double phi) {
   return Eigen::Vector3d(sine * std::cos(phi), sine * std::sin(phi), cosine).cast<float>();
 }
 
-constexpr int sphere_rings = 800;
-constexpr int sphere_spokes = 400;
-constexpr double sphere_weight() { return 4.0 * std::numbers::pi / (sphere_rings * sphere_spokes); }
-
-/// Integral over all directions by the midpoint rule, in cosine and azimuth.
+/// Integral over all directions by the midpoint rule, in the two angles: f(direction, its solid angle).
 template <class F>
 double sphere(const F& f) {
+  constexpr int rings = 800;
+  constexpr int spokes = 400;
+  constexpr double pi = std::numbers::pi;
   double sum = 0.0;
-  for (int i = 0; i < sphere_rings; ++i) {
-    for (int j = 0; j < sphere_spokes; ++j) {
-      const double cosine = 2.0 * (i + 0.5) / sphere_rings - 1.0;
-      sum += f(direction(cosine, 2.0 * std::numbers::pi * (j + 0.5) / sphere_spokes));
-    }
+  for (int i = 0; i < rings; ++i) {
+    const double theta = pi * (i + 0.5) / rings;
+    const double solid_angle = 2.0 * pi * pi / rings / spokes * std::sin(theta);
+    for (int j = 0; j < spokes; ++j)
+      sum += solid_angle * f(direction(std::cos(theta), 2.0 * pi * (j + 0.5) / spokes), solid_angle);
   }
-  return sum * sphere_weight();
+  return sum;
 }
 
 }  // namespace lagomorph::render::path
