@@ -9,7 +9,12 @@
 namespace lagomorph::render {
 
 Camera::Camera(const CameraSettings& s, int width, int height)
-    : width_(width), height_(height), orthographic_(s.orthographic.has_value()), position_(s.position) {
+    : width_(width),
+      height_(height),
+      orthographic_(s.orthographic.has_value()),
+      position_(s.position),
+      blades_(s.blades),
+      blade_rotation_(s.blade_rotation) {
   if (width <= 0 || height <= 0) {
     throw SettingsError("picture size " + std::to_string(width) + "x" + std::to_string(height) +
                         " must be positive");
@@ -35,6 +40,14 @@ Camera::Camera(const CameraSettings& s, int width, int height)
     half_height_ = std::tan(s.fov * std::numbers::pi_v<float> / 360.0F);
   }
   half_width_ = half_height_ * static_cast<float>(width) / static_cast<float>(height);
+  focus_distance_ = s.focus_distance.value_or(view.norm());
+  if (!(s.f_stop >= 0.0F)) throw SettingsError("camera.f_stop must be 0, a pinhole, or above");
+  if (!(s.sensor_height > 0.0F)) throw SettingsError("camera.sensor_height must be above 0 m");
+  if (!(focus_distance_ > 0.0F)) throw SettingsError("camera.focus_distance must be above 0 m");
+  if (blades_ != 0 && (blades_ < 3 || blades_ > 64))
+    throw SettingsError("camera.blades = " + std::to_string(blades_) + " must be 0, a disc, or in 3..64");
+  // The focal length is sensor_height / (2 tan(fov/2)), the diameter that over f_stop.
+  if (!orthographic_ && s.f_stop > 0.0F) lens_radius_ = s.sensor_height / (4.0F * half_height_ * s.f_stop);
 }
 
 Ray Camera::ray(float px, float py) const {
@@ -42,6 +55,14 @@ Ray Camera::ray(float px, float py) const {
   const float y = (1.0F - 2.0F * py / static_cast<float>(height_)) * half_height_;
   if (orthographic_) return {position_ + x * right_ + y * up_, forward_};
   return {position_, (x * right_ + y * up_ + forward_).normalized()};
+}
+
+Ray Camera::ray(float px, float py, const Vec2& on_lens) const {
+  const float x = (2.0F * px / static_cast<float>(width_) - 1.0F) * half_width_;
+  const float y = (1.0F - 2.0F * py / static_cast<float>(height_)) * half_height_;
+  const Vec3 start = lens_radius_ * (on_lens.x() * right_ + on_lens.y() * up_);
+  const Vec3 sharp = focus_distance_ * (x * right_ + y * up_ + forward_);
+  return {position_ + start, (sharp - start).normalized()};
 }
 
 Mat4 Camera::view() const {

@@ -14,11 +14,21 @@ struct CameraSettings {
   float fov = 35.0F;  // vertical field of view [degrees], in (0, 180)
   std::optional<float>
       orthographic;  // height of the view [m]; given, the projection is orthographic and fov is ignored
+  // A thin lens, of perspective cameras and the path tracer. Its focal length follows from fov and
+  // sensor_height.
+  float f_stop = 0.0F;           // focal length over the lens' diameter; 0: a pinhole
+  float sensor_height = 0.024F;  // [m]
+  std::optional<float>
+      focus_distance;           // of the plane that is sharp, along the view axis [m]; none: look_at's
+  int blades = 0;               // of the aperture, 0 (a disc) or 3 .. 64
+  float blade_rotation = 0.0F;  // counterclockwise as the camera sees it [degrees]
+  float shutter = 0.0F;         // part of the time between frames that it is open, up to the frame, in [0, 1]
 };
 
 struct Ray {
   Vec3 origin;
-  Vec3 direction;  // unit length
+  Vec3 direction;     // unit length
+  float time = 1.0F;  // when, from 0, the shutter opens, to 1, it closes: the frame itself
 };
 
 /// One camera for both back ends: the same object gives the clip matrix and the rays.
@@ -27,7 +37,7 @@ struct Ray {
 class Camera {
 public:
   /// Throws SettingsError for a degenerate frame (position = look_at, up along the view, fov outside (0,
-  /// 180), a size <= 0).
+  /// 180), a size <= 0) and a lens that is none.
   Camera(const CameraSettings&, int width, int height);
 
   int width() const { return width_; }
@@ -40,6 +50,14 @@ public:
 
   /// Ray through the point (px, py) of the picture, in pixels from its top left corner.
   Ray ray(float px, float py) const;
+  /// The same through a point of the lens, given in its radii along right and up: all of them meet in the
+  /// plane of focus.
+  Ray ray(float px, float py, const Vec2& on_lens) const;
+  /// Radius of the thin lens: sensor_height / (4 f_stop tan(fov/2)) [m]; 0 of a pinhole.
+  float lens_radius() const { return lens_radius_; }
+  float focus_distance() const { return focus_distance_; }
+  int blades() const { return blades_; }
+  float blade_rotation() const { return blade_rotation_; }
   /// World to eye.
   Mat4 view() const;
   /// Eye to clip, OpenGL conventions (z in [-w, w]).
@@ -57,6 +75,10 @@ private:
   Vec3 position_, right_, up_, forward_;
   float half_height_;  // of the view at depth 1 (perspective) or at any depth (orthographic) [m]
   float half_width_;
+  float lens_radius_ = 0.0F;     // [m]
+  float focus_distance_ = 0.0F;  // [m]
+  int blades_;
+  float blade_rotation_;  // [degrees]
 };
 
 }  // namespace lagomorph::render

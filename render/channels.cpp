@@ -9,6 +9,7 @@ constexpr ChannelKind kinds[] = {
     {.name = color_channel, .components = 3},
     {.name = depth_channel},
     {.name = body_id_channel},
+    {.name = sample_count_channel, .path_only = true},
     {.name = statistics_channel,
      .components = statistics_components,
      .cell = statistics_cell,

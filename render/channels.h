@@ -13,6 +13,9 @@ inline constexpr char depth_channel[] = "depth";
 /// The number of the body that is seen through the pixel's centre, -1 where none is.
 inline constexpr char body_id_channel[] = "body_id";
 
+/// Paths that the pixel took.
+inline constexpr char sample_count_channel[] = "sample_count";
+
 /// Statistics of path-traced light over cells of 8x8 pixels from the picture's corner: mean R, G, B of the
 /// radiance (linear, before exposure and tone curve), the variance of that mean for R, G and B, the number of
 /// batches that the variance was found between (NaN with 1), and of samples a pixel.

@@ -74,6 +74,15 @@ void check_light(const AreaLight& light, std::size_t index) {
   check_range(what + " radiance", light.radiance, 0.0F, largest, "finite, >= 0");
 }
 
+void check_sun(const Sun& sun, std::size_t index) {
+  const std::string what = "sun " + std::to_string(index);
+  check_point(what + " direction", sun.direction);
+  if (!(sun.direction.norm() > 0.0F)) throw SettingsError(what + " direction must not be 0");
+  check_range(what + " angle", sun.angle, 0.01F, 90.0F, "in [0.01, 90] degrees");
+  check_color(what + " color", sun.color, largest, "finite, >= 0");
+  check_range(what + " irradiance", sun.irradiance, 0.0F, largest, "finite, >= 0");
+}
+
 void check_ground(const Ground& ground) {
   check_material("ground", ground.material);
   check_point("ground center", ground.center);
@@ -91,6 +100,7 @@ void check_ground(const Ground& ground) {
 void check_scene(const RenderScene& scene) {
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) check_mesh(scene.meshes[i], i);
   for (std::size_t i = 0; i < scene.lights.size(); ++i) check_light(scene.lights[i], i);
+  for (std::size_t i = 0; i < scene.suns.size(); ++i) check_sun(scene.suns[i], i);
   if (scene.ground.enabled) check_ground(scene.ground);
   check_color("sky zenith", scene.sky.zenith, largest, "finite, >= 0");
   check_color("sky horizon", scene.sky.horizon, largest, "finite, >= 0");
@@ -117,6 +127,7 @@ LightFrame light_frame(const AreaLight& light) {
 }
 
 Color sky_radiance(const Sky& sky, const Vec3& direction) {
+  if (sky.map) return sky.strength * sky.map->radiance(direction);
   const float w = std::sqrt(std::max(direction.y(), 0.0F));
   return sky.strength * ((1.0F - w) * sky.horizon + w * sky.zenith);
 }

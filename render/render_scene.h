@@ -1,10 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "render/sky_map.h"
 #include "render/types.h"
 
 /// What is drawn, the same for every back end. Lengths in metres, light in W/(sr m^2) (radiance), colours
@@ -73,19 +75,32 @@ struct LightFrame {
   Vec3 right, up, normal;
 };
 
+/// A disc infinitely far away, of one radiance.
+struct Sun {
+  Vec3 direction = Vec3(-0.4F, -1.0F, -0.6F);  // the way it shines, of any length but 0
+  float angle = 0.53F;                         // its diameter [degrees], in [0.01, 90]
+  Color color = Color(1.0F, 1.0F, 1.0F);
+  float irradiance = 3.0F;  // of white, on a surface that faces it; times color [W/m^2]
+  bool visible = false;     // seen by camera rays that meet nothing, where there is no background
+};
+
 /// Radiance by direction: horizon at and below y = 0, zenith straight up, blended by y^0.5; times strength.
+/// With a map it is the map's, times strength.
 struct Sky {
   Color zenith = Color(0.55F, 0.70F, 0.95F);
   Color horizon = Color(0.95F, 0.95F, 0.95F);
   float strength = 0.6F;
+  std::shared_ptr<const SkyMap> map = nullptr;
 };
 
 struct RenderScene {
   std::vector<Mesh> meshes;
   Ground ground;
   std::vector<AreaLight> lights;
+  std::vector<Sun> suns;
   Sky sky;
   std::optional<Color> background;  // what the camera sees where nothing is; the sky itself when not given
+  bool moving = false;  // meshes may be elsewhere when the shutter opens, see Renderer::set_opening()
 };
 
 /// Throws SettingsError, naming the mesh, light or ground, the value and what would be right: indices, finite

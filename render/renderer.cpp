@@ -3,6 +3,7 @@
 #include "render/backends.h"
 #include "render/error.h"
 #include "render/raster/optics_stand_in.h"
+#include "render/raster/stand_ins.h"
 
 namespace lagomorph::render {
 namespace {
@@ -52,10 +53,13 @@ std::unique_ptr<Renderer> make_renderer(const RenderSettings& settings, int thre
                       joined(renderer_names()));
 }
 
-std::vector<std::string> renderer_remarks(const RenderSettings& settings, const CameraSettings& /*camera*/,
+std::vector<std::string> renderer_remarks(const RenderSettings& settings, const CameraSettings& camera,
                                           const RenderScene& scene) {
   std::vector<std::string> remarks;
-  if (settings.backend == "raster") remarks = raster::optics_remarks(scene);
+  if (settings.backend == "raster") {
+    remarks = raster::stand_in_remarks(camera, scene);
+    for (std::string& remark : raster::optics_remarks(scene)) remarks.push_back(std::move(remark));
+  }
   if (settings.backend == "path" && settings.path.clamp > 0.0F) {
     std::string value = std::to_string(settings.path.clamp);
     value.erase(value.find_last_not_of('0') + 1);

@@ -32,6 +32,9 @@ public:
   virtual void update_positions(int mesh, std::span<const Vec3> positions) = 0;
   /// New colours of scene.meshes[mesh], which has some: one for each vertex, in [0, 1]. Throws SettingsError.
   virtual void update_colors(int mesh, std::span<const Color> colors) = 0;
+  /// Where a mesh is as the shutter opens, when the scene is `moving`: from there it goes straight to its
+  /// positions, after whose update it stands still. Back ends that draw no motion blur ignore it.
+  virtual void set_opening(int /*mesh*/, std::span<const Vec3> /*positions*/) {}
   /// Draws "color" (linear) and every channel of settings.channels. The camera's size is the picture's.
   virtual Image render(const Camera&, const FrameInfo&) = 0;
   /// Library versions, device, instruction set: what the pixels' bits depend on. For run.json.

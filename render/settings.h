@@ -21,6 +21,8 @@ struct PathSettings {
   std::uint32_t seed = 0;                  // of the sample sequence
   std::string filter = "blackman_harris";  // pixel reconstruction: box, gaussian, blackman_harris
   float filter_radius = 1.5F;              // [pixels], in (0, 4]
+  float noise_threshold = 0.0F;  // of adaptive sampling, see path/adaptive.h; 0: every pixel takes `samples`
+  int min_samples = 16;          // of adaptive sampling, a pixel, 1 .. 65536
 };
 
 struct RenderSettings {

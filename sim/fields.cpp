@@ -37,7 +37,8 @@ Shape shape_of(const Model& model, const VecX& q) {
     mesh.is_quadratic(j) ? add_mean(Tet10::rule(mesh, j), q, shape) : add_mean(Tet4::rule(mesh, j), q, shape);
   shape.states.P.assign(mesh.tets.size(), Mat3::Zero());
   shape.states.psi.assign(mesh.tets.size(), 0.0);
-  shape.states.stiffness.assign(mesh.tets.size(), 0.0);
+  shape.states.C_iijj.assign(mesh.tets.size(), 0.0);
+  shape.states.C_ijij.assign(mesh.tets.size(), 0.0);
   for (const auto& term : model.energies()) {
     if (const auto* source = dynamic_cast<const StressSource*>(term.get()))
       source->add_states(q, shape.states);
@@ -61,8 +62,27 @@ Values stresses(const Shape& s) {
 Values determinants(const Shape& s) {
   return by_tet(s, [&](std::size_t j) { return s.F[j].determinant(); });
 }
-Values densities(const Shape& s) { return s.states.psi; }
-Values stiffnesses(const Shape& s) { return s.states.stiffness; }
+Values energies(const Shape& s) { return s.states.psi; }
+
+struct Moduli {
+  double K, mu;  // of bulk and shear [Pa]
+};
+/// Of the isotropic mean of a tet's material at rest.
+Moduli moduli(const Shape& s, std::size_t j) {
+  return {s.states.C_iijj[j] / 9.0, (s.states.C_ijij[j] - s.states.C_iijj[j] / 3.0) / 10.0};
+}
+Values youngs(const Shape& s) {
+  return by_tet(s, [&](std::size_t j) {
+    const auto [K, mu] = moduli(s, j);
+    return 9.0 * K * mu / (3.0 * K + mu);
+  });
+}
+Values poissons(const Shape& s) {
+  return by_tet(s, [&](std::size_t j) {
+    const auto [K, mu] = moduli(s, j);
+    return (3.0 * K - 2.0 * mu) / (2.0 * (3.0 * K + mu));
+  });
+}
 /// Of the centroid.
 Values displacements(const Shape& s) {
   const TetMesh& mesh = s.model.mesh();
@@ -71,6 +91,15 @@ Values displacements(const Shape& s) {
     for (const int v : mesh.tets[j]) sum += s.q.segment<3>(3 * v) - mesh.X.row(v).transpose();
     return 0.25 * sum.norm();
   });
+}
+Values densities(const Shape& s) {
+  Values values(s.F.size());
+  const std::vector<Body>& all = s.model.mesh().bodies;
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    for (int j = all[b].tets.begin; j < all[b].tets.end; ++j)
+      values[static_cast<std::size_t>(j)] = density_of(s.model.masses()[b], j - all[b].tets.begin);
+  }
+  return values;
 }
 Values bodies(const Shape& s) {
   Values values(s.F.size());
@@ -115,16 +144,21 @@ struct Row {
   Values (*vertices)(const Shape&);  // nullptr: means of the elements
 };
 /// The explicit table: a new field is one row.
-constexpr std::array<Row, 6> table = {{
+constexpr std::array<Row, 8> table = {{
     {{"von_mises", "Pa", "von Mises stress of the Cauchy stress", "von Mises stress"}, stresses, nullptr},
     {{"J", "", "volume ratio det F", "volume ratio J"}, determinants, nullptr},
     {{"energy_density", "J/m^3", "elastic energy per volume at rest", "elastic energy density"},
-     densities,
+     energies,
      nullptr},
     {{"displacement", "m", "distance from the place at rest", "displacement"},
      displacements,
      vertex_displacements},
-    {{"stiffness", "Pa", "size of the material's moduli", "stiffness"}, stiffnesses, nullptr},
+    {{"young", "Pa", "Young's modulus at rest, of fibres and all the mean over directions",
+      "Young's modulus"},
+     youngs,
+     nullptr},
+    {{"poisson", "", "Poisson's ratio at rest, likewise", "Poisson's ratio"}, poissons, nullptr},
+    {{"density", "kg/m^3", "mass density at rest", "density"}, densities, nullptr},
     {{"body", "", "number of the body, from 0", "body"}, bodies, nullptr},
 }};
 

@@ -19,7 +19,7 @@ struct FieldInfo {
   const char* meaning;
   const char* title;  // as it stands beside a scale
 };
-/// von_mises, J, energy_density, displacement, stiffness, body.
+/// von_mises, J, energy_density, displacement, young, poisson, density, body.
 std::vector<FieldInfo> field_table();
 /// Throws InputError that lists the names for one that is none.
 const FieldInfo& find_field(std::string_view name);

@@ -180,8 +180,7 @@ std::string reason_of(const Stepping& with, const StepReport& step, const State&
   if (step.status == StepStatus::inaccurate)
     how = "an estimated error of " + short_number(*step.error) + " m (tolerance " +
           short_number(*with.time.error_tolerance) + ")";
-  const bool loose =
-      step.status == StepStatus::not_positive && with.model.held(state.t).pins().vertices().empty();
+  const bool loose = with.integrator.name() == "static" && with.model.held(state.t).pins().vertices().empty();
   const std::string hint = loose ? "; nothing is pinned" : "";
   return "frame " + std::to_string(state.frame + 1) + ": " + with.integrator.step_name() + " of " +
          short_number(step.h) + " s at t = " + short_number(state.t) + " s " + told(step.status) + " after " +

@@ -13,12 +13,14 @@ namespace {
 constexpr int kMaxRefinements = 5;
 
 /// (M + h² K) q̇1 = M q̇0 - h ∂V/∂q, q1 = q0 + h q̇1, with K = ∂²V/∂q² and ∂V/∂q at q0: the first Newton
-/// iteration of backward Euler from q0 on; loads at the end of the step. K is exact, never projected.
-/// (lecture, "Linearly implicit Euler") Damping adds h C, with the same C as in backward Euler.
+/// iteration of backward Euler from q0 on; loads at the end of the step. K is exact, or projected element by
+/// element where solver.hessian says so. (lecture, "Linearly implicit Euler") Damping adds h C, with the same
+/// C as in backward Euler.
 class LinearlyImplicitEuler : public Integrator {
 public:
   LinearlyImplicitEuler(const SolverSettings& settings, const Model& model)
       : tolerance_((check(settings), settings.tolerance)),
+        kind_(settings.hessian == "projected" ? HessianKind::projected : HessianKind::exact),
         linear_solver_(settings.blas_threads),
         A_(model.pattern()) {
     if (!model.damping().is_none()) C_.emplace(model.pattern());
@@ -65,7 +67,7 @@ private:
     A_.set_zero();
     for (const auto& term : model.energies()) {
       term->add_gradient(state.q, 1.0, g);
-      term->add_hessian(state.q, h * h, HessianKind::exact, A_);
+      term->add_hessian(state.q, h * h, kind_, A_);
     }
     model.add_mass(1.0, A_);
     if (load.size() != 0) g -= load;
@@ -117,6 +119,7 @@ private:
   }
 
   double tolerance_;
+  HessianKind kind_;
   LinearSolver linear_solver_;
   const Pins* pins_ = nullptr;  // that it is analyzed for
   BlockHessian A_;

@@ -130,7 +130,6 @@ Points start_velocities(const BodySettings& settings, const Points& X, const Poi
 Model::Model(std::vector<BodyInput> bodies, const Vec3& gravity) {
   require(!bodies.empty(), "there is no body; give at least one");
   require(gravity.allFinite(), "gravity must be finite");
-  std::vector<BodyMass> masses;
   std::vector<ElasticBody> elastic;
   std::vector<Hold> holds;
   std::vector<std::string> names_of_holds;
@@ -152,7 +151,7 @@ Model::Model(std::vector<BodyInput> bodies, const Vec3& gravity) {
     append_springs(settings, body.X, mesh_.vertex_count(), where, springs);
     append(body, name, mesh_);
     Tissue tissue = make_tissue(body, settings, where);
-    masses.push_back({settings.density, settings.mass == "lumped", std::move(tissue.densities)});
+    masses_.push_back({settings.density, settings.mass == "lumped", std::move(tissue.densities)});
     for (ElasticBody& part : tissue.parts) {
       part.tets.begin += mesh_.bodies.back().tets.begin;
       part.tets.end += mesh_.bodies.back().tets.begin;
@@ -162,7 +161,7 @@ Model::Model(std::vector<BodyInput> bodies, const Vec3& gravity) {
   }
   hold(holds, names_of_holds);
   pattern_ = std::make_shared<const BlockPattern>(mesh_.vertex_count(), mesh_.tets, mesh_.midsides);
-  mass_blocks_ = assemble_mass(mesh_, masses, *pattern_);
+  mass_blocks_ = assemble_mass(mesh_, masses_, *pattern_);
   vertex_mass_ = vertex_mass_matrix(mass_blocks_, *pattern_);
   f_g_ = mass_times(gravity.replicate(mesh_.vertex_count(), 1));
   energies_ = make_elasticity(mesh_, elastic, pattern_);
@@ -182,7 +181,7 @@ Model::Model(std::vector<BodyInput> bodies, const Vec3& gravity) {
         start_velocities(bodies[b].settings, X, bodies[b].velocities, mass.segment(first, count), where);
     qdot0_.segment(3 * first, 3 * count) = Eigen::Map<const VecX>(v.data(), v.size());
     set_start(bodies[b].settings, body.vertices, mesh_.X, pins(), where, q0_);
-    loads_.append(mesh_, body, bodies[b].settings, masses[b], where);
+    loads_.append(mesh_, body, bodies[b].settings, masses_[b], where);
   }
   pins().clear_pinned(qdot0_);
   held_.front().set_velocities(0.0, qdot0_);

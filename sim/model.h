@@ -9,6 +9,7 @@
 #include "sim/energy.h"
 #include "sim/held.h"
 #include "sim/loads.h"
+#include "sim/mass.h"
 #include "sim/pins.h"
 #include "sim/settings.h"
 #include "sim/tet_mesh.h"
@@ -60,6 +61,8 @@ public:
   /// What holds the bodies in a step whose middle is at t: a pin lets go between the steps whose middles are
   /// before and after its release.
   const Held& held(double t) const;
+  /// Densities, a body each.
+  const std::vector<BodyMass>& masses() const { return masses_; }
   const Pins& pins() const { return held_.front().pins(); }  // at the start
   /// Dead loads f(t), 3n; empty when there are none. [N]
   VecX load_force(double t) const { return loads_.force(t); }
@@ -82,8 +85,9 @@ private:
 
   TetMesh mesh_;
   std::shared_ptr<const BlockPattern> pattern_;
-  VecX mass_blocks_;          // each block of M is such a multiple of I
-  SparseMatrix vertex_mass_;  // the same as a matrix, n×n: M = vertex_mass ⊗ I
+  std::vector<BodyMass> masses_;  // a body each
+  VecX mass_blocks_;              // each block of M is such a multiple of I
+  SparseMatrix vertex_mass_;      // the same as a matrix, n×n: M = vertex_mass ⊗ I
   VecX f_g_;
   std::vector<double> releases_;  // ascending [s]
   std::vector<Held> held_;        // until each of them, and from the last on

@@ -27,6 +27,8 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kArmijo = 1e-4;  // part of the predicted decrease that a step must bring
 constexpr double kLeastClamping = 1.0 / 64.0;
+/// Of the mass that is added to a singular Hessian, over the largest entries of both.
+constexpr double kLeastShift = 1e-14, kLargestShift = 1e-2;
 constexpr int kMaxBacktracks = 40;      // halvings of a step while the energy tells steps apart
 constexpr int kMaxBlindBacktracks = 8;  // and where only the residual does
 constexpr int kMaxCarries = 8;          // pieces in which the held coordinates may reach their places
@@ -127,7 +129,8 @@ FactorStatus Newton::factorize(const Model& model, const IncrementalPotential& p
   if (settings_.hessian == "projected") {
     assemble(model, phi, q, HessianKind::projected, H_);
     used_clamping_ = 1.0;
-    return linear_solver_.factorize(H_);
+    const FactorStatus status = linear_solver_.factorize(H_);
+    return status == FactorStatus::not_positive_definite ? factorize_shifted(model) : status;
   }
   assemble(model, phi, q, HessianKind::exact, H_);
   used_clamping_ = 0.0;
@@ -140,8 +143,32 @@ FactorStatus Newton::factorize(const Model& model, const IncrementalPotential& p
     H_.set_blend(exact_, projected_, clamping);
     used_clamping_ = clamping;
     status = linear_solver_.factorize(H_);
-    if (status != FactorStatus::not_positive_definite || clamping == 1.0) return status;
+    if (status != FactorStatus::not_positive_definite) return status;
+    if (clamping == 1.0) return factorize_shifted(model);
   }
+}
+
+/// Clamped in full a Hessian may still be singular, or so to rounding, where nothing holds a body at rest or
+/// tets are flat: a little more mass on its diagonal goes downhill all the same.
+FactorStatus Newton::factorize_shifted(const Model& model) {
+  const auto largest = [](const BlockHessian& A) {
+    double found = 0.0;
+    for (int k = 0; k < A.pattern().block_count(); ++k)
+      found = std::max(found, A.block(k).cwiseAbs().maxCoeff());
+    return found;
+  };
+  projected_.set_zero();
+  model.add_mass(1.0, projected_);
+  const double unit = largest(H_) / largest(projected_);
+  FactorStatus status = FactorStatus::not_positive_definite;
+  double sum = 0.0;
+  for (double shift = kLeastShift; shift <= kLargestShift; shift *= 100.0) {
+    model.add_mass(shift * unit - sum, H_);
+    sum = shift * unit;
+    status = linear_solver_.factorize(H_);
+    if (status != FactorStatus::not_positive_definite) break;
+  }
+  return status;
 }
 
 /// Goes along the direction to a point that is better, and returns which part of it that took; 0 when there

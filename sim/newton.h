@@ -53,6 +53,7 @@ private:
   Point evaluate(const Model&, const IncrementalPotential&, VecX q) const;
   void assemble(const Model&, const IncrementalPotential&, const VecX& q, HessianKind, BlockHessian& H) const;
   FactorStatus factorize(const Model&, const IncrementalPotential&, const VecX& q, double& clamping);
+  FactorStatus factorize_shifted(const Model&);
   double search_line(const Model&, const IncrementalPotential&, const VecX& direction, Point& point) const;
   double carry(const Model&, const IncrementalPotential&, const VecX& direction, Point& point) const;
   double rounding_floor(const VecX& q) const;

@@ -55,7 +55,7 @@ public:
     report.iterates = std::move(newton.iterates);
     report.error = 0.0;
     if (!is_good(report.status)) return report;
-    report.account(held, newton.balance, load, q - state.q);
+    account(model, held, state, q, left, report);
     state.q = std::move(q);
     state.qdot.setZero();
     state.t += h;
@@ -63,6 +63,36 @@ public:
   }
 
 private:
+  /// The pins' forces at the end, and the work along the way to there by the trapezoidal rule. Loads that
+  /// change during a frame do so in proportion to its time; before the first frame there are none.
+  void account(const Model& model, const Held& held, const State& state, const VecX& q1, double left,
+               StepReport& report) const {
+    const double start = state.frame / fps_, end = (state.frame + 1) / fps_;
+    const double before = (state.t - start) * fps_, after = 1.0 - left * (1.0 - before);
+    const VecX last = model.load_force(end);
+    const VecX first = state.frame > 0 ? model.load_force(start) : VecX();
+    const auto load = [&](double part) {
+      VecX sum;
+      if (last.size() != 0) sum = part * last;
+      if (first.size() != 0)
+        sum = sum.size() == 0 ? VecX((1.0 - part) * first) : VecX(sum + (1.0 - part) * first);
+      return sum;
+    };
+    const auto balance = [&](const VecX& q, const VecX& f) {
+      VecX sum = f.size() == 0 ? VecX(VecX::Zero(q.size())) : VecX(-f);
+      for (const auto& term : model.energies()) term->add_gradient(q, 1.0, sum);
+      return sum;
+    };
+    const VecX load0 = load(before), load1 = load(after);
+    const VecX balance0 = balance(state.q, load0), balance1 = balance(q1, load1), dq = q1 - state.q;
+    report.account(held, 0.5 * (balance0 + balance1),
+                   load1.size() == 0   ? load0
+                   : load0.size() == 0 ? load1
+                                       : VecX(0.5 * (load0 + load1)),
+                   dq);
+    report.pin_forces = held.forces(balance1);
+  }
+
   double fps_;
   Newton newton_;
 };

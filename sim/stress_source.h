@@ -8,9 +8,11 @@ namespace lagomorph::sim {
 
 /// What an elastic term knows of each element of the mesh, the mean over its quadrature points.
 struct ElementStates {
-  std::vector<Mat3> P;            // first Piola-Kirchhoff stress ∂ψ/∂F [Pa]
-  std::vector<double> psi;        // energy density [J/m^3]
-  std::vector<double> stiffness;  // the size of the material's moduli [Pa]
+  std::vector<Mat3> P;      // first Piola-Kirchhoff stress ∂ψ/∂F [Pa]
+  std::vector<double> psi;  // energy density [J/m^3]
+  // Of the moduli C = ∂²ψ/∂F² at F = 1, whose isotropic mean (Voigt's) has C_iijj = 9K, C_ijij = 3K + 10 mu.
+  // [Pa]
+  std::vector<double> C_iijj, C_ijij;
 };
 
 /// A term of V that has stresses.

@@ -14,6 +14,7 @@
 #include "apps/commands.h"
 #include "apps/nearest.h"
 #include "apps/version.h"
+#include "apps/video/video.h"
 #include "render/renderer.h"
 #include "sim/integrator.h"
 #include "sim/materials/table.h"
@@ -228,6 +229,12 @@ constexpr OptionRow option_rows[] = {
      "at most N threads; never changes a result", apply_threads},
     {"--video", nullptr, " run render ", "also make RUN/<name>.mp4 of the pictures",
      [](Options& o, const std::string&) { o.video = true; }},
+    {"--codec", "NAME", " run render ",
+     "of the video: h264 or h265 (.mp4), vp9 (.webm), prores (.mov); implies --video",
+     [](Options& o, const std::string& v) {
+       o.codec = one_of(v, "--codec", video_codecs());
+       o.video = true;
+     }},
     {"--static", nullptr, " run simulate ",
      "frame 0 at rest, frame 1 the equilibrium: time.integrator = static",
      [](Options& o, const std::string&) { o.is_static = true; }},
@@ -275,7 +282,7 @@ constexpr OptionRow option_rows[] = {
        o.format = one_of(v, "--format", {"vtu", "ply", "obj", "gltf", "usda"});
      }},
     {"--fields", "A,B,...", " export ",
-     "von_mises, J, energy_density, displacement, stiffness, body; by default all in vtu",
+     "von_mises, J, energy_density, displacement, young, poisson, density, body; by default all in vtu",
      [](Options& o, const std::string& v) { o.fields = names_of(v, "--fields"); }},
     {"--heat", "FILE", " compare ", "write where they differ as a PNG; with --out, DIR/heat.png",
      [](Options& o, const std::string& v) { o.heat = non_empty(v, "--heat"); }},

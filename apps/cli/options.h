@@ -24,7 +24,8 @@ struct Options {
   std::optional<FrameRange> frames;             // --frames
   std::optional<std::string> backend;           // --backend
   int threads = 0;                              // --threads; 0: as many as the process may use
-  bool video = false;                           // --video
+  bool video = false;                           // --video, --codec
+  std::string codec = "h264";                   // --codec
   bool is_static = false;                       // --static: the equilibrium instead of the motion
   bool log_newton = false;                      // --log-newton
   bool force = false;                           // --force

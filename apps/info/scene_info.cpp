@@ -9,6 +9,7 @@
 #include "apps/pipeline/build_scene.h"
 #include "apps/run/disk_space.h"
 #include "apps/scene/scene.h"
+#include "sim/fields.h"
 #include "sim/integrator.h"
 #include "sim/placement.h"
 #include "sim/tissue.h"
@@ -69,9 +70,45 @@ void add_ranges(Report& report, const sim::BodyInput& body, nlohmann::ordered_js
   report.add_text("", constants);
 }
 
+std::string range_text(double low, double high) {
+  return low == high ? number_text(low) : number_text(low) + " .. " + number_text(high);
+}
+
+/// How a body's material behaves at rest, whatever its model's own constants; fibres, springs and loads.
+void add_behaviour(Report& report, const sim::BodySettings& settings, const sim::Range& tets,
+                   const std::vector<sim::Field>& at_rest, nlohmann::ordered_json& json) {
+  std::string text;
+  for (const sim::Field& field : at_rest) {
+    const auto [low, high] =
+        std::minmax_element(field.elements.begin() + tets.begin, field.elements.begin() + tets.end);
+    text += fmt::format(
+        "{}{} {}{}{}", text.empty() ? "at rest " : ", ", field.info.name,
+        range_text(std::stod(fmt::format("{:.6g}", *low)), std::stod(fmt::format("{:.6g}", *high))),
+        *field.info.unit == 0 ? "" : " ", field.info.unit);
+    json["at_rest"][field.info.name] = {*low, *high};
+  }
+  report.add_text("", text);
+  std::string more;
+  if (settings.material.fibre) {
+    const sim::FibreSettings& f = *settings.material.fibre;
+    more += fmt::format(", fibres along {} of {} Pa", point_text(f.direction), number_text(f.stiffness));
+  }
+  const auto count = [&](std::size_t n, const char* what) {
+    if (n > 0) more += fmt::format(", {} {}{}", n, what, n == 1 ? "" : "s");
+  };
+  count(settings.pin.size(), "pin");
+  count(settings.spring.size(), "spring");
+  count(settings.load.size(), "load");
+  json["pins"] = settings.pin.size();
+  json["springs"] = settings.spring.size();
+  json["loads"] = settings.load.size();
+  if (!more.empty()) report.add_text("", more.substr(2));
+}
+
 void add_bodies(Report& report, const SceneDesc& scene, const std::vector<sim::BodyInput>& inputs,
                 const sim::Model& model, const std::vector<sim::Surface>& surfaces) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  const auto at_rest = sim::fields_of(model, model.initial_state().q, {"young", "poisson", "density"});
   for (std::size_t i = 0; i < scene.body.size(); ++i) {
     const BodyDesc& described = scene.body[i];
     const sim::Body& body = model.mesh().bodies[i];
@@ -93,6 +130,7 @@ void add_bodies(Report& report, const SceneDesc& scene, const std::vector<sim::B
                    {"density", described.physics.density},
                    {"surface", described.surface.mesh},
                    {"triangles", triangles}});
+    add_behaviour(report, described.physics, body.tets, at_rest, all.back());
     add_ranges(report, inputs[i], all.back());
   }
   report.add_json("bodies", all);

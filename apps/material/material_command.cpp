@@ -95,6 +95,7 @@ void show_curves(const sim::MaterialPoint& material, const Options& options) {
 ExitStatus material_command(const Options& given) {
   Options options = given;
   options.material.model = options.inputs.at(0);
+  sim::check_material(options.material, "material " + options.material.model);
   const auto material = sim::make_material_point(options.material, "material " + options.material.model);
   if (options.F) {
     print(at_one_F(*material, options));

@@ -42,7 +42,7 @@ struct Layout {
   double title_width, labels_width;
 
   double tick() const { return 0.9 * unit; }
-  double bar_width() const { return 2.4 * unit; }
+  double bar_width() const { return 3.0 * unit; }
   double bar_height() const { return 42.0 * unit; }
   double column() const { return bar_width() + 2.2 * tick() + labels_width; }
   double width() const { return 2.0 * pad + std::max(title_width, column()); }
@@ -74,15 +74,16 @@ void draw_bar(render::Picture& picture, const ColorBar& bar, const BarLabels& la
   draw_plate(picture, {left, top, left + l.width(), top + l.height()});
   const TextStyle style{.height = l.text, .color = plate_ink};
   draw_text(picture, left + l.pad, top + l.pad + l.text, labels.title, style);
-  const double x = std::round(left + l.pad), y = std::round(top + 2.5 * l.pad + l.text);
+  const double x = std::round(left + 0.5 * (l.width() - l.column())),
+               y = std::round(top + 2.5 * l.pad + l.text);
   const Rectangle colors{x, y, x + std::round(l.bar_width()), y + std::round(l.bar_height())};
+  const double line = std::max(1.0, std::round(0.12 * l.unit));
+  fill_rectangle(picture, {x - line, y - line, colors.right + line, colors.bottom + line}, plate_ink, 0.5);
   draw_gradient(picture, colors, *bar.map);
   for (const BarLabel& label : labels.ticks) {
     const double along = (label.value - bar.low) / (bar.high - bar.low);
     const double at = colors.bottom - along * (colors.bottom - colors.top);
-    const double thickness = std::max(1.0, 0.15 * l.unit);
-    fill_rectangle(picture,
-                   {colors.right, at - 0.5 * thickness, colors.right + l.tick(), at + 0.5 * thickness},
+    fill_rectangle(picture, {colors.right, at - 0.5 * line, colors.right + l.tick(), at + 0.5 * line},
                    plate_ink);
     draw_text(picture, colors.right + 2.2 * l.tick(), at + 0.5 * l.text, label.text, style);
   }
@@ -95,7 +96,7 @@ BarLabels labels_of(const ColorBar& bar) {
   const Prefix prefix = prefix_of(size, !bar.unit.empty());
   BarLabels labels{bar.title, {}};
   if (!bar.unit.empty()) labels.title += fmt::format(" ({}{})", prefix.name, bar.unit);
-  const std::vector<double> places = ticks(bar.low / prefix.factor, bar.high / prefix.factor, 6);
+  const std::vector<double> places = ticks(bar.low / prefix.factor, bar.high / prefix.factor, 8);
   const double step = places[1] - places[0];
   for (const double place : places) {
     const double value = place * prefix.factor, slack = 1e-9 * (bar.high - bar.low);

@@ -1,13 +1,20 @@
 #include "apps/pipeline/build_scene.h"
 
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "apps/error.h"
+#include "apps/file_io.h"
 #include "apps/pipeline/painted_fields.h"
 #include "apps/pipeline/recordings.h"
+#include "render/atmosphere.h"
+#include "render/error.h"
+#include "render/hdr.h"
 #include "sim/error.h"
 #include "sim/mesh_io.h"
 #include "sim/pins.h"
@@ -44,6 +51,32 @@ std::vector<render::Vec3> to_render(const sim::Points& points) {
     positions[i] = points.row(static_cast<Eigen::Index>(i)).transpose().cast<float>();
   }
   return positions;
+}
+
+/// The picture of a sky around; messages name the file.
+render::SkyMap read_sky(const std::filesystem::path& file, float rotation) {
+  const std::string bytes = read_file(file);
+  try {
+    render::HdrPicture picture =
+        render::read_hdr({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+    return {picture.width, picture.height, std::move(picture.texels), rotation};
+  } catch (const render::SettingsError& e) {
+    throw Error(ExitStatus::wrong_input, fmt::format("{}: {}", file.string(), e.what()));
+  }
+}
+
+/// The sky, and the sun in it.
+void light_by_sky(const SceneDesc& scene, render::RenderScene& drawn) {
+  drawn.sky = scene.sky;
+  if (!scene.sky.image.empty()) {
+    drawn.sky.map = std::make_shared<const render::SkyMap>(
+        read_sky(scene.directory / scene.sky.image, scene.sky.rotation));
+  } else if (scene.sky.model == "physical") {
+    drawn.sky.map = std::make_shared<const render::SkyMap>(render::atmosphere_map(scene.sky.atmosphere));
+    render::Sun sun = render::atmosphere_sun(scene.sky.atmosphere);
+    sun.irradiance = scene.sky.strength;
+    drawn.suns.push_back(sun);
+  }
 }
 
 /// Selections are told here with their place in the scene. The recorded paths of the pins.
@@ -138,15 +171,29 @@ render::RenderScene build_render_scene(const SceneDesc& scene, const sim::Model&
     drawn.meshes.push_back(std::move(mesh));
   }
   drawn.ground = scene.ground;
-  drawn.lights = scene.light;
-  drawn.sky = scene.sky;
+  for (const LightDesc& light : scene.light) {
+    if (light.kind == "sun") {
+      drawn.suns.push_back(
+          {light.direction.normalized(), light.angle, light.color, light.irradiance, light.visible});
+    } else {
+      drawn.lights.push_back(light);
+    }
+  }
+  light_by_sky(scene, drawn);
+  drawn.moving = scene.camera.shutter > 0.0F;
   drawn.background = scene.background;
   return drawn;
 }
 
-void move_meshes(render::Renderer& renderer, const std::vector<sim::Surface>& surfaces, const sim::VecX& q) {
+void move_meshes(render::Renderer& renderer, const std::vector<sim::Surface>& surfaces, const sim::VecX& q,
+                 const MotionBlur* blur) {
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    renderer.update_positions(static_cast<int>(i), to_render(surfaces[i].positions(q)));
+    const std::vector<render::Vec3> close = to_render(surfaces[i].positions(q));
+    renderer.update_positions(static_cast<int>(i), close);
+    if (blur == nullptr) continue;
+    // What a surface is carried to is linear in q.
+    const sim::VecX open = q + blur->shutter * (blur->before - q);
+    renderer.set_opening(static_cast<int>(i), to_render(surfaces[i].positions(open)));
   }
 }
 

@@ -25,7 +25,14 @@ std::vector<sim::Surface> build_surfaces(const SceneDesc&, const sim::Model&, Pr
 /// What a renderer draws, the bodies at rest.
 render::RenderScene build_render_scene(const SceneDesc&, const sim::Model&, const std::vector<sim::Surface>&);
 
-/// Moves the renderer's meshes to where the surfaces are at q.
-void move_meshes(render::Renderer&, const std::vector<sim::Surface>&, const sim::VecX& q);
+/// Of a shutter that is open for this part of the time since the state before, until the frame.
+struct MotionBlur {
+  double shutter;
+  sim::VecX before;
+};
+
+/// Moves the renderer's meshes to where the surfaces are at q; with `blur`, on a straight line to there.
+void move_meshes(render::Renderer&, const std::vector<sim::Surface>&, const sim::VecX& q,
+                 const MotionBlur* blur = nullptr);
 
 }  // namespace lagomorph::apps

@@ -238,7 +238,7 @@ ExitStatus make_all(Production& p, RunResult& result, Progress& progress) {
 
   if (p.options.video && p.renderer) {
     std::optional<VideoUpdate> video =
-        update_video(p.paths, p.scene, result.records, p.frames, info.video, stop_asked);
+        update_video(p.paths, p.scene, result.records, p.frames, p.options.codec, info.video, stop_asked);
     if (!video) return stop_status();
     result.video = video->record.file;
     result.video_made = video->made;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -80,7 +81,8 @@ RunLock lock_for_drawing(const RunPaths& paths, const Identity& wanted) {
 /// Those asked for, or all whose states are there.
 FrameRange frames_to_draw(const Options& options, const SceneDesc& scene, const StatesOfRun& states) {
   const FrameRange frames = options.frames ? wanted_frames(options.frames, scene.time.frames) : states.all();
-  states.require(frames);
+  // Motion blur begins at the frame before.
+  states.require({scene.camera.shutter > 0.0F ? std::max(frames.first - 1, 0) : frames.first, frames.last});
   return frames;
 }
 

@@ -50,7 +50,12 @@ bool StateSource::simulate(int frame, sim::State& state, StateRecord& record) {
 }
 
 std::optional<StateFrame> StateSource::next(const FrameJob& job) {
-  StateFrame frame{.job = job, .state = {}, .made = {}};
+  StateFrame frame{.job = job, .state = {}, .before = {}, .made = {}};
+  if (job.draw && job.frame > 0 && scene_.camera.shutter > 0.0F) {
+    const bool at_hand = last_ && last_->frame == job.frame - 1;
+    if (!at_hand) last_ = read(job.frame - 1);
+    frame.before = last_->q;
+  }
   if (!job.simulate) {
     frame.state = read(job.frame);
   } else if (!simulate(job.frame, frame.state, frame.made.emplace())) {

@@ -86,6 +86,7 @@ void SurfaceFields::see(const sim::VecX& q) {
 }
 
 /// Never empty: around one value a tenth of it, above 0 the unit. Even around the middle of a diverging map.
+/// An end that is 0 but for rounding is 0.
 std::array<double, 2> SurfaceFields::range_of(const Scale& s) {
   if (!s.automatic) return {s.low, s.high};
   double low = s.low, high = s.high;
@@ -95,6 +96,8 @@ std::array<double, 2> SurfaceFields::range_of(const Scale& s) {
     low = *middle - reach, high = *middle + reach;
   }
   const double size = std::max(std::abs(low), std::abs(high));
+  if (std::abs(low) < 1e-9 * size) low = 0.0;
+  if (std::abs(high) < 1e-9 * size) high = 0.0;
   if (size == 0.0) return {0.0, 1.0};
   if (high - low > 1e-6 * size) return {low, high};
   return {low - 0.1 * size, high + 0.1 * size};

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "apps/page/html.h"
 #include "apps/overlay/stroke_font.h"
+#include "apps/page/html.h"
 
 namespace lagomorph::apps {
 namespace {

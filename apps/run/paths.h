@@ -29,7 +29,9 @@ public:
   std::filesystem::path picture(int frame) const;
   std::filesystem::path record(int frame) const;
   std::filesystem::path channel(std::string_view name, int frame) const;
-  std::filesystem::path video(const std::string& scene_name) const { return root_ / (scene_name + ".mp4"); }
+  std::filesystem::path video(const std::string& scene_name, const std::string& extension = ".mp4") const {
+    return root_ / (scene_name + extension);
+  }
 
 private:
   std::filesystem::path root_;

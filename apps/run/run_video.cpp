@@ -40,10 +40,16 @@ bool is_up_to_date(const RunPaths& paths, const VideoRecord& there, const VideoR
 
 std::optional<VideoUpdate> update_video(const RunPaths& paths, const SceneDesc& scene,
                                         const std::map<int, FrameRecord>& records, FrameRange frames,
-                                        const std::optional<VideoRecord>& there,
+                                        const std::string& codec, const std::optional<VideoRecord>& there,
                                         const std::function<bool()>& stop) {
-  VideoJob job{paths.pictures(),    frames.first,           frames.last, scene.time.fps, scene.render.width,
-               scene.render.height, paths.video(scene.name)};
+  VideoJob job{paths.pictures(),
+               frames.first,
+               frames.last,
+               scene.time.fps,
+               scene.render.width,
+               scene.render.height,
+               paths.video(scene.name, video_extension(codec)),
+               codec};
   for (int frame = job.first; frame <= job.last; ++frame) {
     if (has_picture(records, frame)) continue;
     throw Error(ExitStatus::wrong_input, "--video: " + paths.picture(frame).string() + " is not there");

@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <string>
 
 #include "apps/cli/options.h"
 #include "apps/run/paths.h"
@@ -17,13 +18,13 @@ struct VideoUpdate {
   bool made = false;  // false: it was up to date
 };
 
-/// Brings RUN/<name>.mp4 up to date: of all pictures around `frames` that have no gap between them, so that a
-/// run in shards ends with the video of the whole. Left alone when it is that already. Returns what run.json
-/// tells of it; nullopt when `stop` ended it. Throws Error(machine), with the command to run later, when
-/// ffmpeg cannot.
+/// Brings RUN/<name> with the codec's extension up to date: of all pictures around `frames` that have no gap
+/// between them, so that a run in shards ends with the video of the whole. Left alone when it is that
+/// already. Returns what run.json tells of it; nullopt when `stop` ended it. Throws Error(machine), with the
+/// command to run later, when ffmpeg cannot.
 std::optional<VideoUpdate> update_video(const RunPaths&, const SceneDesc&,
                                         const std::map<int, FrameRecord>& records, FrameRange frames,
-                                        const std::optional<VideoRecord>& there,
+                                        const std::string& codec, const std::optional<VideoRecord>& there,
                                         const std::function<bool()>& stop);
 
 }  // namespace lagomorph::apps

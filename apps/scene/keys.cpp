@@ -18,6 +18,8 @@ constexpr Part simulation = Part::simulation;
 
 std::vector<std::string> mass_choices() { return {"consistent", "lumped"}; }
 std::vector<std::string> element_choices() { return {"mesh", "linear", "quadratic"}; }
+std::vector<std::string> light_kinds() { return {"area", "sun"}; }
+std::vector<std::string> sky_models() { return {"gradient", "physical"}; }
 std::vector<std::string> hessian_choices() { return {"auto", "projected"}; }
 
 void visit_time(sim::TimeSettings& t, KeyVisitor& v) {
@@ -204,6 +206,41 @@ void visit_body(BodyDesc& b, KeyVisitor& v) {
       p.field, visit_field);
 }
 
+void visit_lens(render::CameraSettings& c, KeyVisitor& v) {
+  v.key({.name = "f_stop",
+         .bounds = at_least(0),
+         .meaning =
+             "focal length over the lens' diameter, for depth of field (path, perspective); 0: all is sharp. "
+             "The focal length is sensor_height / (2 tan(fov/2)), 51 mm at 26.5 degrees, so that things of a "
+             "metre blur much below f/1 only, or with a larger sensor"},
+        &c.f_stop);
+  v.key({.name = "focus_distance",
+         .unit = "m",
+         .bounds = above(0),
+         .meaning = "along the view axis, of the plane that is sharp",
+         .default_note = "look_at's"},
+        &c.focus_distance);
+  v.key({.name = "sensor_height",
+         .unit = "m",
+         .bounds = above(0),
+         .meaning = "of the picture in the camera; 24 mm is 35 mm film"},
+        &c.sensor_height);
+  v.key({.name = "blades",
+         .bounds = between(0, 64),
+         .meaning = "of the aperture, which is a polygon of so many corners; 0: a disc",
+         .holds = [](double n) { return n == 0 || n >= 3; },
+         .rule = "not 1 or 2"},
+        &c.blades);
+  v.key({.name = "blade_rotation", .unit = "degrees", .meaning = "counterclockwise"}, &c.blade_rotation);
+  v.key(
+      {.name = "shutter",
+       .bounds = between(0, 1),
+       .meaning =
+           "part of the time between frames that the shutter is open, until the frame (path): motion blur by "
+           "straight lines from the state before; 0.5 is usual. Frame 0 has none"},
+      &c.shutter);
+}
+
 void visit_camera(render::CameraSettings& c, KeyVisitor& v) {
   v.key({.name = "position", .unit = "m", .meaning = "of the eye"}, &c.position);
   v.key({.name = "look_at", .unit = "m", .meaning = "what is in the middle of the picture"}, &c.look_at);
@@ -213,8 +250,10 @@ void visit_camera(render::CameraSettings& c, KeyVisitor& v) {
   v.key({.name = "orthographic",
          .unit = "m",
          .bounds = above(0),
-         .meaning = "height of the view; given, the projection is orthographic and fov has no effect"},
+         .meaning =
+             "height of the view; given, the projection is orthographic and fov and lens have no effect"},
         &c.orthographic);
+  visit_lens(c, v);
 }
 
 void visit_raster(render::RasterSettings& r, KeyVisitor& v) {
@@ -254,6 +293,15 @@ void visit_path(render::PathSettings& p, KeyVisitor& v) {
          .bounds = above_up_to(0, 4),
          .meaning = "of the reconstruction filter"},
         &p.filter_radius);
+  v.key({.name = "noise_threshold",
+         .bounds = at_least(0),
+         .meaning =
+             "adaptive sampling: squares of 8x8 pixels get no more samples once their noise (standard error "
+             "over "
+             "the square root of the luminance) is below this; 0.01 is usual, 0: all get render.samples"},
+        &p.noise_threshold);
+  v.key({.name = "min_samples", .bounds = between(1, 65536), .meaning = "of adaptive sampling, a pixel"},
+        &p.min_samples);
 }
 
 void visit_render(render::RenderSettings& r, KeyVisitor& v) {
@@ -297,22 +345,70 @@ void visit_ground(render::Ground& g, KeyVisitor& v) {
   v.one({.name = "material", .meaning = "how it is drawn", .is_inline = true}, g.material, visit_look);
 }
 
-void visit_light(render::AreaLight& l, KeyVisitor& v) {
+void visit_light(LightDesc& l, KeyVisitor& v) {
+  v.key(
+      {.name = "kind",
+       .meaning = "a rectangle with position, look_at, size and radiance, or a sun with direction, angle and "
+                  "irradiance",
+       .choices = light_kinds},
+      &l.kind);
   v.key({.name = "position", .unit = "m", .meaning = "middle of the rectangle"}, &l.position);
   v.key({.name = "look_at", .unit = "m", .meaning = "where it shines; the other side is dark"}, &l.look_at);
   v.key({.name = "size", .unit = "m", .bounds = above(0), .meaning = "width, height"}, &l.size);
   v.key({.name = "color", .bounds = at_least(0), .meaning = "linear RGB"}, &l.color);
   v.key({.name = "radiance", .unit = "W/(sr m^2)", .bounds = at_least(0), .meaning = "of white; times color"},
         &l.radiance);
+  v.key({.name = "direction", .meaning = "of a sun: the way it shines, of any length but 0"}, &l.direction);
+  v.key({.name = "angle",
+         .unit = "degrees",
+         .bounds = between(0.01, 90),
+         .meaning = "of a sun: its diameter; the larger, the softer its shadows"},
+        &l.angle);
+  v.key({.name = "irradiance",
+         .unit = "W/m^2",
+         .bounds = at_least(0),
+         .meaning = "of a white sun, on a surface that faces it; times color"},
+        &l.irradiance);
   v.key({.name = "visible", .meaning = "whether the camera sees it"}, &l.visible);
 }
 
-void visit_sky(render::Sky& s, KeyVisitor& v) {
+void visit_sky(SkyDesc& s, KeyVisitor& v) {
+  v.key({.name = "model",
+         .meaning = "gradient: zenith and horizon; physical: a clear sky and its sun",
+         .choices = sky_models},
+        &s.model);
   v.key({.name = "zenith", .bounds = at_least(0), .meaning = "linear RGB straight up"}, &s.zenith);
   v.key({.name = "horizon", .bounds = at_least(0), .meaning = "linear RGB at the horizon and below"},
         &s.horizon);
-  v.key({.name = "strength", .unit = "W/(sr m^2)", .bounds = at_least(0), .meaning = "radiance of white"},
+  v.key({.name = "strength",
+         .unit = "W/(sr m^2)",
+         .bounds = at_least(0),
+         .meaning =
+             "radiance of white; with an image, of its value 1; with the physical model the sun's irradiance "
+             "above the air [W/m^2]",
+         .default_note = "0.6; 1 with an image; 5 with the physical model"},
         &s.strength);
+  v.key({.name = "image",
+         .meaning = "Radiance picture (.hdr) in latitude and longitude that lights the scene, instead of the "
+                    "model; its "
+                    "top is +y, its middle -z, +x to the right of that",
+         .file = true},
+        &s.image);
+  v.key({.name = "rotation",
+         .unit = "degrees",
+         .meaning = "azimuth that the image's middle faces: 0 is -z, 90 is +x"},
+        &s.rotation);
+  v.key({.name = "elevation",
+         .unit = "degrees",
+         .bounds = between(-5, 90),
+         .meaning = "of the physical model's sun above the horizon"},
+        &s.atmosphere.elevation);
+  v.key({.name = "azimuth", .unit = "degrees", .meaning = "of the physical model's sun: 0 is -z, 90 is +x"},
+        &s.atmosphere.azimuth);
+  v.key({.name = "turbidity",
+         .bounds = between(1, 10),
+         .meaning = "of the physical model's air: 1 without haze, 3 clear, 10 hazy"},
+        &s.atmosphere.turbidity);
 }
 
 void visit_background(std::optional<render::Color>& color, KeyVisitor& v) {
@@ -361,9 +457,10 @@ void visit_scene(SceneDesc& s, KeyVisitor& v) {
   v.one({.name = "render", .meaning = "the pictures"}, s.render, visit_render);
   v.one({.name = "ground", .meaning = "a floor that receives shadows and fades into the background"},
         s.ground, visit_ground);
-  v.list({.name = "light",
-          .meaning = "a rectangle that shines; one where the scene names none, none with `light = []`"},
-         s.light, visit_light);
+  v.list(
+      {.name = "light",
+       .meaning = "a rectangle that shines or a sun; one where the scene names none, none with `light = []`"},
+      s.light, visit_light);
   v.one({.name = "sky", .meaning = "light from all around"}, s.sky, visit_sky);
   v.one({.name = "background", .meaning = "what the camera sees where nothing is"}, s.background,
         visit_background);

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <optional>
 #include <set>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -108,7 +109,10 @@ void resolve_boundary(BodyDesc& body, double fps, const std::string& path, const
   each(p.pin, "pin", body.pin_places, check_pin);
   each(p.spring, "spring", body.spring_places, check_selects);
   each(p.load, "load", body.load_places, check_load);
-  for (sim::PinSettings& pin : p.pin) {
+  for (std::size_t j = 0; j < p.pin.size(); ++j) {
+    sim::PinSettings& pin = p.pin[j];
+    if (pin.path.empty() && pin.path_fps)
+      wrong_input(fmt::format("{}.path_fps has no effect without a path", body.pin_places[j]));
     if (!pin.path.empty() && !pin.path_fps) pin.path_fps = fps;
   }
 }
@@ -118,17 +122,29 @@ void complete_material(sim::MaterialSettings& m, const sim::MaterialSettings& bo
                        const Places& places) {
   const bool has_preset = places.has(path + ".preset");
   if (!places.has(path + ".model")) m.model = body.model;
-  if (!places.has(path + ".moduli")) m.moduli = body.moduli;
+  if (!places.has(path + ".moduli") && m.model == body.model) m.moduli = body.moduli;
   if (!m.fibre) m.fibre = body.fibre;
-  if (m.mu || m.lambda || m.C || m.D || m.C10 || m.C01 || m.bulk) return;
+  using Constant = std::optional<double> sim::MaterialSettings::*;
+  using Set = std::vector<Constant>;
+  using M = sim::MaterialSettings;
+  const auto any = [](const M& of, const Set& set) {
+    return std::any_of(set.begin(), set.end(), [&](Constant c) { return (of.*c).has_value(); });
+  };
+  const auto complete = [&](const Set& set) {
+    for (const Constant c : set)
+      if (!(m.*c)) m.*c = body.*c;
+  };
+  // A set that is begun is completed; without one it is the body's.
+  for (const Set& set : {Set{&M::mu, &M::lambda}, Set{&M::C, &M::D}, Set{&M::C10, &M::C01, &M::bulk}}) {
+    if (any(m, set)) return complete(set);
+  }
+  const Set own = {&M::C, &M::D, &M::C10, &M::C01, &M::bulk};
   if (!m.young && !m.poisson && m.data.empty() && !has_preset) {
-    m.mu = body.mu;
-    m.lambda = body.lambda;
-    m.C = body.C;
-    m.D = body.D;
-    m.C10 = body.C10;
-    m.C01 = body.C01;
-    m.bulk = body.bulk;
+    if (m.model != body.model && any(body, own))
+      wrong_input(fmt::format("{}{}: the body's constants are of {}; give young and poisson", places.of(path),
+                              path, body.model));
+    complete({&M::mu, &M::lambda});
+    complete(own);
   }
   if (has_preset) return;
   if (!m.young && m.data.empty()) m.young = body.young;
@@ -166,6 +182,16 @@ void check_camera(const render::CameraSettings& c, const Places& places) {
   }
 }
 
+/// The usual strengths of an image and of the physical model are others than the gradient's.
+void resolve_sky(SkyDesc& sky, const Places& places) {
+  if (places.has("sky.strength")) return;
+  if (!sky.image.empty()) {
+    sky.strength = 1.0F;
+  } else if (sky.model == "physical") {
+    sky.strength = 5.0F;
+  }
+}
+
 void check_looks(const SceneDesc& scene, const Places& places) {
   for (std::size_t i = 0; i < scene.body.size(); ++i) {
     const std::optional<std::array<double, 2>>& range = scene.body[i].shown.range;
@@ -180,8 +206,12 @@ void check_looks(const SceneDesc& scene, const Places& places) {
                             scene.ground.fade_start, scene.ground.radius));
   }
   for (std::size_t i = 0; i < scene.light.size(); ++i) {
-    if (scene.light[i].position != scene.light[i].look_at) continue;
     const std::string path = fmt::format("light.{}", i);
+    if (scene.light[i].kind == "sun") {
+      if (scene.light[i].direction.cwiseAbs().maxCoeff() > 0.0F) continue;
+      wrong_input(fmt::format("{}{}.direction must not be 0", places.of(path + ".direction"), path));
+    }
+    if (scene.light[i].position != scene.light[i].look_at) continue;
     std::string key = path + ".look_at";
     if (!places.has(key)) key = path + ".position";
     wrong_input(fmt::format("{}{}.position and {}.look_at are the same point", places.of(key), path, path));
@@ -242,9 +272,11 @@ void resolve_scene(SceneDesc& scene, const Places& places, const std::string& st
   }
   check_camera(scene.camera, places);
   check_looks(scene, places);
+  resolve_sky(scene.sky, places);
 }
 
 void check_scene_files(const SceneDesc& scene, const Places& places) {
+  check_file(scene, scene.sky.image, "sky.image", {".hdr"}, places);
   for (std::size_t i = 0; i < scene.body.size(); ++i) {
     const std::string path = fmt::format("body.{}", i);
     check_file(scene, scene.body[i].mesh, path + ".mesh", sim::tet_mesh_extensions(), places);

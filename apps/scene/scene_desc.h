@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "render/atmosphere.h"
 #include "render/camera.h"
 #include "render/render_scene.h"
 #include "render/settings.h"
@@ -41,6 +42,22 @@ struct BodyDesc {
   std::vector<std::string> pin_places, spring_places, load_places;
 };
 
+/// A light of a scene: a rectangle or a sun.
+struct LightDesc : render::AreaLight {
+  std::string kind = "area";
+  render::Vec3 direction = render::Sun().direction;  // these of a sun
+  float angle = render::Sun().angle;
+  float irradiance = render::Sun().irradiance;
+};
+
+/// Light from all around: a gradient, a clear sky with its sun, or a picture.
+struct SkyDesc : render::Sky {
+  std::string model = "gradient";
+  std::string image;      // .hdr, relative to the scene file; given, it stands for the model
+  float rotation = 0.0F;  // of the image's middle, see SkyMap [degrees]
+  render::Atmosphere atmosphere;
+};
+
 /// A scene file as plain values, every default filled in. What the file says, not yet what it makes.
 struct SceneDesc {
   std::string name;
@@ -50,8 +67,8 @@ struct SceneDesc {
   render::CameraSettings camera;            // [camera]
   render::RenderSettings render;            // [render], [render.raster], [render.path]
   render::Ground ground;                    // [ground]
-  std::vector<render::AreaLight> light;     // [[light]]; none in the file: one key light by default
-  render::Sky sky;                          // [sky]
+  std::vector<LightDesc> light;             // [[light]]; none in the file: one key light by default
+  SkyDesc sky;                              // [sky]
   std::optional<render::Color> background;  // [background] color = [r, g, b], linear
   std::filesystem::path directory;          // of the scene file: what relative paths in it are relative to
 };

@@ -40,19 +40,83 @@ std::string last_line(std::string text) {
   return text.substr(text.find_last_of('\n') + 1);
 }
 
+struct Codec {
+  const char* name;
+  const char* extension;
+  std::vector<std::string> encoder;
+  std::vector<std::string> container;
+};
+/// The explicit table: a new codec is one row.
+const std::vector<Codec> codecs = {
+    {"h264",
+     ".mp4",
+     {"-c:v", "libx264", "-preset", "medium", "-crf", "18", "-pix_fmt", "yuv420p"},
+     {"-movflags", "+faststart", "-f", "mp4"}},
+    // hvc1: what QuickTime and Safari play.
+    {"h265",
+     ".mp4",
+     {"-c:v", "libx265", "-preset", "medium", "-crf", "21", "-pix_fmt", "yuv420p", "-tag:v", "hvc1",
+      "-x265-params", "log-level=error:pools=none:frame-threads=1:info=0"},
+     {"-movflags", "+faststart", "-f", "mp4"}},
+    {"vp9",
+     ".webm",
+     {"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-pix_fmt", "yuv420p", "-row-mt", "0"},
+     {"-f", "webm"}},
+    {"prores",
+     ".mov",
+     {"-c:v", "prores_ks", "-profile:v", "3", "-vendor", "apl0", "-pix_fmt", "yuv422p10le"},
+     {"-f", "mov"}},
+};
+
+const Codec& find_codec(const std::string& name) {
+  std::string names;
+  for (const Codec& codec : codecs) {
+    if (name == codec.name) return codec;
+    names += (names.empty() ? "" : ", ") + std::string(codec.name);
+  }
+  throw Error(ExitStatus::wrong_input, "unknown video codec '" + name + "'; known are " + names);
+}
+
 }  // namespace
 
+std::vector<std::string> video_codecs() {
+  std::vector<std::string> names;
+  for (const Codec& codec : codecs) names.emplace_back(codec.name);
+  return names;
+}
+
+std::string video_extension(const std::string& codec) { return find_codec(codec).extension; }
+
 std::vector<std::string> ffmpeg_command(const VideoJob& job) {
-  return {"ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-framerate",
-          fmt::format("{:.17g}", job.fps), "-start_number", std::to_string(job.first), "-i",
-          picture_pattern(job.pictures), "-frames:v", std::to_string(job.last - job.first + 1), "-vf",
-          filters(job), "-c:v", "libx264", "-preset", "medium", "-crf", "18", "-pix_fmt", "yuv420p",
-          // The tables of the sRGB pictures; without them players guess.
-          "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range",
-          "tv",
-          // The same bytes on any machine: x264's decisions depend on its number of threads.
-          "-threads", "4", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1",
-          "-movflags", "+faststart", "-f", "mp4", file_name(job.output)};
+  std::vector<std::string> command = {"ffmpeg",
+                                      "-hide_banner",
+                                      "-loglevel",
+                                      "error",
+                                      "-nostdin",
+                                      "-y",
+                                      "-framerate",
+                                      fmt::format("{:.17g}", job.fps),
+                                      "-start_number",
+                                      std::to_string(job.first),
+                                      "-i",
+                                      picture_pattern(job.pictures),
+                                      "-frames:v",
+                                      std::to_string(job.last - job.first + 1),
+                                      "-vf",
+                                      filters(job)};
+  const auto add = [&](const std::vector<std::string>& more) {
+    command.insert(command.end(), more.begin(), more.end());
+  };
+  const Codec& codec = find_codec(job.codec);
+  add(codec.encoder);
+  // The tables of the sRGB pictures; without them players guess.
+  add({"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range",
+       "tv"});
+  // The same bytes on any machine: the encoders' decisions depend on their number of threads.
+  add({"-threads", "4", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"});
+  add(codec.container);
+  command.push_back(file_name(job.output));
+  return command;
 }
 
 bool make_video(const VideoJob& job, const std::function<bool()>& stop) {

@@ -15,9 +15,15 @@ struct VideoJob {
   double fps = 30.0;
   int width = 0, height = 0;  // of the pictures
   std::filesystem::path output;
+  std::string codec = "h264";  // see video_codecs()
 };
 
-/// H.264, yuv420p, faststart, BT.709; an odd side gets one more line of its last pixels. The same pictures
+/// h264 and h265 (.mp4, faststart), vp9 (.webm), prores (422 HQ, .mov).
+std::vector<std::string> video_codecs();
+/// With its dot. Throws Error(wrong_input) for a codec that is none.
+std::string video_extension(const std::string& codec);
+
+/// BT.709, yuv420p, of prores yuv422p10; an odd side gets one more line of its last pixels. The same pictures
 /// give the same bytes with the same ffmpeg.
 std::vector<std::string> ffmpeg_command(const VideoJob&);
 

@@ -9,6 +9,7 @@
 
 #include "render/backends.h"
 #include "render/error.h"
+#include "render/path/adaptive.h"
 #include "render/path/filter.h"
 #include "render/path/path_tracer.h"
 #include "render/path/scene_geometry.h"
@@ -36,6 +37,13 @@ public:
     check_range("render.path.bounces", settings.path.bounces, 0, 64);
     check_range("render.path.transmission_bounces", settings.path.transmission_bounces, 0, 256);
     if (!(settings.path.clamp >= 0.0F)) throw SettingsError("render.path.clamp must be >= 0");
+    check_range("render.path.min_samples", settings.path.min_samples, 1, 65536);
+    if (!(settings.path.noise_threshold >= 0.0F))
+      throw SettingsError("render.path.noise_threshold must be >= 0");
+    if (settings.path.noise_threshold > 0.0F && wants(statistics_channel)) {
+      throw SettingsError("render.channels: '" + std::string(statistics_channel) +
+                          "' needs the same samples everywhere: render.path.noise_threshold = 0");
+    }
   }
 
   std::string_view name() const override { return "path"; }
@@ -65,6 +73,10 @@ public:
     geometry_->move(mesh, positions);
   }
 
+  void set_opening(int mesh, std::span<const Vec3> positions) override {
+    if (scene_.moving) geometry_->open(mesh, positions);
+  }
+
   Image render(const Camera& camera, const FrameInfo& frame) override {
     if (!geometry_) throw SettingsError("the path tracer has no scene");
     Image image(camera.width(), camera.height());
@@ -73,7 +85,13 @@ public:
       float* statistics = wants(statistics_channel)
                               ? image.add(statistics_channel, statistics_components, statistics_cell).data()
                               : nullptr;
-      draw_color(camera, frame.frame, image.add("color", 3), statistics);
+      float* counts = nullptr;
+      if (wants(sample_count_channel)) {
+        std::vector<float>& values = image.add(sample_count_channel, 1);
+        std::fill(values.begin(), values.end(), static_cast<float>(settings_.samples));
+        counts = values.data();
+      }
+      draw_color(camera, frame.frame, image.add("color", 3), statistics, counts);
       if (wants(depth_channel)) draw_depth(camera, image.add(depth_channel, 1));
       if (wants(body_id_channel)) draw_body_ids(camera, image.add(body_id_channel, 1));
     });
@@ -115,13 +133,21 @@ private:
         tbb::simple_partitioner());
   }
 
-  /// And the channel of statistics where it is not nullptr.
-  void draw_color(const Camera& camera, int frame, std::vector<float>& color, float* statistics) const {
+  /// And the channels of statistics and sample counts where they are not nullptr.
+  void draw_color(const Camera& camera, int frame, std::vector<float>& color, float* statistics,
+                  float* counts) const {
+    const path::AdaptiveSampling adaptive{settings_.path.min_samples, settings_.samples,
+                                          static_cast<double>(settings_.path.noise_threshold)};
     const path::FrameSamples numbers(settings_.path.seed, frame, settings_.samples);
     tbb::enumerable_thread_specific<path::PathTracer> tracers([&] {
       return path::PathTracer(*geometry_, *shading_, camera, filter_, settings_.samples, settings_.path);
     });
     for_tiles(camera, [&](const path::Tile& tile) {
+      if (adaptive.threshold > 0.0) {
+        path::trace_adaptively(tracers.local(), tile, numbers, adaptive, camera.width(), color.data(),
+                               counts);
+        return;
+      }
       std::optional<path::TileStatistics> cells;
       if (statistics != nullptr) cells.emplace(tile, settings_.samples);
       tracers.local().trace(tile, numbers, color.data(), cells ? &*cells : nullptr);

@@ -17,12 +17,16 @@ constexpr float inv_pi = std::numbers::inv_pi_v<float>;
 
 // Names of the sample pairs; those of a surface are counted from surface_dimensions * (its depth + 1).
 constexpr std::uint32_t pixel_dimension = 0;
+constexpr std::uint32_t lens_dimension = 1;
+constexpr std::uint32_t time_dimension = 2;  // u
 constexpr std::uint32_t surface_dimensions = 16;
 constexpr std::uint32_t scatter_dimension = 0;
 constexpr std::uint32_t sky_dimension = 1;
 constexpr std::uint32_t choice_dimension = 2;   // u: roulette, v: which light
 constexpr std::uint32_t through_dimension = 3;  // u: ground or what lies behind it
 constexpr std::uint32_t light_dimension = 4;    // and the three after it
+constexpr std::uint32_t sun_dimension = 8;
+constexpr std::uint32_t sun_choice_dimension = 9;  // u
 constexpr std::uint32_t lobe_dimension = 10;
 constexpr std::uint32_t clear_dimension = 11;  // of the dielectric's choices
 constexpr std::uint32_t entry_dimension = 12;  // u: into the cloudy inside or not
@@ -53,6 +57,24 @@ Shading::Shading(const RenderScene& scene)
     total += rectangle.power();
   }
   for (const RectangleLight& light : lights) pick.push_back(light.power() / total);
+  float of_suns = 0.0F;
+  for (const Sun& sun : scene.suns) {
+    const SunLight disc(sun);
+    if (disc.strength() <= 0.0F) continue;
+    suns.push_back(disc);
+    of_suns += disc.strength();
+  }
+  for (const SunLight& sun : suns) sun_pick.push_back(sun.strength() / of_suns);
+  if (sky.map) sky_sampler.emplace(*sky.map);
+}
+
+Color Shading::open_view(const Vec3& direction) const {
+  if (background) return *background;
+  Color light = sky_radiance(sky, direction);
+  for (const SunLight& sun : suns) {
+    if (sun.visible() && sun.contains(direction)) light += sun.radiance();
+  }
+  return light;
 }
 
 PathTracer::PathTracer(const SceneGeometry& geometry, const Shading& shading, const Camera& camera,
@@ -61,6 +83,8 @@ PathTracer::PathTracer(const SceneGeometry& geometry, const Shading& shading, co
       shading_(shading),
       camera_(camera),
       filter_(filter),
+      aperture_(camera),
+      moving_(geometry.moving()),
       samples_(static_cast<std::uint32_t>(samples)),
       bounces_(static_cast<std::uint32_t>(settings.bounces)),
       clear_bounces_(static_cast<std::uint32_t>(settings.transmission_bounces)),
@@ -75,6 +99,7 @@ PathTracer::PathTracer(const SceneGeometry& geometry, const Shading& shading, co
   shadow_lanes_.reserve(batch_size);
   blocked_.reserve(batch_size);
   radiance_.reserve(batch_size);
+  times_.reserve(batch_size);
 }
 
 void PathTracer::trace(const Tile& tile, const FrameSamples& numbers, float* color,
@@ -85,23 +110,17 @@ void PathTracer::trace(const Tile& tile, const FrameSamples& numbers, float* col
   Eigen::Array3d sum = Eigen::Array3d::Zero();
   for (std::uint64_t first = 0; first < total; first += batch_size) {
     const std::uint64_t count = std::min<std::uint64_t>(batch_size, total - first);
-    rays_.clear();
-    paths_.clear();
-    radiance_.assign(count, Color::Zero());
     const auto place = [&](std::uint64_t i) {
       const auto pixel = static_cast<std::uint32_t>(i / samples_);
       return std::array<int, 2>{tile.x0 + static_cast<int>(pixel % width),
                                 tile.y0 + static_cast<int>(pixel / width)};
     };
+    begin_batch(count);
     for (std::uint32_t lane = 0; lane < count; ++lane) {
       const auto [x, y] = place(first + lane);
-      const PathSamples samples = numbers.path(x, y, static_cast<int>((first + lane) % samples_));
-      const Pair s = samples.pair(pixel_dimension);
-      rays_.push_back(camera_.ray(static_cast<float>(x) + 0.5F + filter_.offset(s.u),
-                                  static_cast<float>(y) + 0.5F + filter_.offset(s.v)));
-      paths_.push_back({Color::Ones(), 0.0F, 0.0F, std::numeric_limits<float>::infinity(), lane, samples});
+      begin_path(lane, x, y, numbers.path(x, y, static_cast<int>((first + lane) % samples_)));
     }
-    for (std::uint32_t depth = 0; !paths_.empty(); ++depth) trace_batch(depth);
+    finish_batch();
     for (std::uint32_t lane = 0; lane < count; ++lane) {
       sum += radiance_[lane].cast<double>();
       const auto [x, y] = place(first + lane);
@@ -116,8 +135,48 @@ void PathTracer::trace(const Tile& tile, const FrameSamples& numbers, float* col
   }
 }
 
+void PathTracer::trace(std::span<const PixelSample> of, const FrameSamples& numbers,
+                       std::span<Color> radiance) {
+  for (std::size_t first = 0; first < of.size(); first += batch_size) {
+    const std::size_t count = std::min(batch_size, of.size() - first);
+    begin_batch(count);
+    for (std::uint32_t lane = 0; lane < count; ++lane) {
+      const PixelSample& s = of[first + lane];
+      begin_path(lane, s.x, s.y, numbers.path(s.x, s.y, s.sample));
+    }
+    finish_batch();
+    std::copy(radiance_.begin(), radiance_.end(), radiance.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+}
+
+void PathTracer::begin_batch(std::size_t count) {
+  rays_.clear();
+  paths_.clear();
+  radiance_.assign(count, Color::Zero());
+  times_.clear();
+}
+
+/// Lanes begin in order.
+void PathTracer::begin_path(std::uint32_t lane, int x, int y, const PathSamples& samples) {
+  const Pair s = samples.pair(pixel_dimension);
+  const float px = static_cast<float>(x) + 0.5F + filter_.offset(s.u);
+  const float py = static_cast<float>(y) + 0.5F + filter_.offset(s.v);
+  rays_.push_back(camera_.lens_radius() > 0.0F
+                      ? camera_.ray(px, py, aperture_.point(samples.pair(lens_dimension)))
+                      : camera_.ray(px, py));
+  paths_.push_back({Color::Ones(), 0.0F, 0.0F, std::numeric_limits<float>::infinity(), lane, samples});
+  if (moving_) times_.push_back(samples.pair(time_dimension).u);
+}
+
+void PathTracer::finish_batch() {
+  for (std::uint32_t depth = 0; !paths_.empty(); ++depth) trace_batch(depth);
+}
+
 void PathTracer::trace_batch(std::uint32_t depth) {
   hits_.resize(rays_.size());
+  if (moving_) {
+    for (std::size_t i = 0; i < rays_.size(); ++i) rays_[i].time = times_[paths_[i].lane];
+  }
   geometry_.caster().intersect(rays_, depth == 0 ? Coherence::coherent : Coherence::incoherent, hits_);
   if (depth == 0) indirect_.assign(radiance_.size(), 0);
   arrive(depth);
@@ -126,6 +185,7 @@ void PathTracer::trace_batch(std::uint32_t depth) {
   paths_.clear();
   if (vertices_.empty()) return;
   gather_lights(depth);
+  gather_suns(depth);
   gather_sky(depth);
   scatter(depth);
 }
@@ -203,7 +263,7 @@ Color PathTracer::seen_by_camera(const Ray& ray, Ahead& ahead) const {
   } else if (ahead.on_mesh) {
     return Color::Zero();
   } else {
-    light = shading_.background ? *shading_.background : sky_radiance(shading_.sky, ray.direction);
+    light = shading_.open_view(ray.direction);
   }
   return (1.0F - ahead.opacity) * light;
 }
@@ -221,8 +281,15 @@ Color PathTracer::light_met(const Ray& ray, const Path& path, std::uint32_t from
     light += (through * power_heuristic(path.bsdf_pdf, pdf)) * l.radiance();
   }
   if (!ahead.on_mesh && ahead.opacity < 1.0F) {
-    const float weight = power_heuristic(path.bsdf_pdf, path.sky_pdf);
+    const float sky_pdf = shading_.sky_sampler ? shading_.sky_sampler->pdf(ray.direction) : path.sky_pdf;
+    const float weight = power_heuristic(path.bsdf_pdf, sky_pdf);
     light += ((1.0F - ahead.opacity) * weight) * sky_radiance(shading_.sky, ray.direction);
+    for (std::size_t k = 0; k < shading_.suns.size(); ++k) {
+      const SunLight& sun = shading_.suns[k];
+      if (!sun.contains(ray.direction)) continue;
+      const float of_sun = power_heuristic(path.bsdf_pdf, shading_.sun_pick[k] * sun.pdf());
+      light += ((1.0F - ahead.opacity) * of_sun) * sun.radiance();
+    }
   }
   return light;
 }
@@ -290,14 +357,45 @@ void PathTracer::gather_light(const Vertex& v, const RectangleLight& light, floa
   push_shadow({v.origin, to.direction}, to.distance * (1.0F - 1e-5F), arriving, v.lane);
 }
 
-/// Shadow rays to the sky, spread as the cosine.
+/// Shadow rays to the suns, to one picked by its irradiance where they are several.
+void PathTracer::gather_suns(std::uint32_t depth) {
+  if (shading_.suns.empty()) return;
+  for (const Vertex& v : vertices_) {
+    std::size_t k = 0;
+    if (shading_.suns.size() > 1) {
+      float left = v.samples.pair(dimension(depth, sun_choice_dimension)).u;
+      while (k + 1 < shading_.suns.size() && left >= shading_.sun_pick[k]) left -= shading_.sun_pick[k++];
+    }
+    const SunLight& sun = shading_.suns[k];
+    const Vec3 direction = sun.sample(v.samples.pair(dimension(depth, sun_dimension)));
+    const Vec3 wi(direction.dot(v.t), direction.dot(v.b), direction.dot(v.n));
+    if (wi.z() <= 0.0F) continue;
+    const float pdf = shading_.sun_pick[k] * sun.pdf();
+    const Brdf::Value f = v.brdf->evaluate(v.view, wi);
+    const Color arriving = (power_heuristic(pdf, f.pdf) / pdf) * sun.radiance() * f.f_cos * v.throughput;
+    push_shadow({v.origin, direction}, std::numeric_limits<float>::infinity(), arriving, v.lane);
+  }
+  trace_shadows(depth == 0 ? Coherence::coherent : Coherence::incoherent);
+}
+
+/// Shadow rays to the sky, spread as the cosine, or as the light of its map.
 void PathTracer::gather_sky(std::uint32_t depth) {
   if (shading_.sky.strength <= 0.0F) return;
   for (const Vertex& v : vertices_) {
-    const Vec3 wi = sample_cosine(v.samples.pair(dimension(depth, sky_dimension)));
-    const float pdf = wi.z() * inv_pi;
+    const Pair s = v.samples.pair(dimension(depth, sky_dimension));
+    Vec3 wi, direction;
+    float pdf = 0.0F;
+    if (shading_.sky_sampler) {
+      const SkySampler::Sample to = shading_.sky_sampler->sample(s);
+      direction = to.direction;
+      wi = Vec3(direction.dot(v.t), direction.dot(v.b), direction.dot(v.n));
+      pdf = wi.z() > 0.0F ? to.pdf : 0.0F;
+    } else {
+      wi = sample_cosine(s);
+      pdf = wi.z() * inv_pi;
+      direction = wi.x() * v.t + wi.y() * v.b + wi.z() * v.n;
+    }
     if (pdf <= 0.0F) continue;
-    const Vec3 direction = wi.x() * v.t + wi.y() * v.b + wi.z() * v.n;
     const Brdf::Value f = v.brdf->evaluate(v.view, wi);
     const Color arriving =
         (power_heuristic(pdf, f.pdf) / pdf) * sky_radiance(shading_.sky, direction) * f.f_cos * v.throughput;
@@ -320,6 +418,9 @@ void PathTracer::push_shadow(const Ray& ray, float distance, const Color& arrivi
 
 void PathTracer::trace_shadows(Coherence coherence) {
   blocked_.resize(shadow_rays_.size());
+  if (moving_) {
+    for (std::size_t i = 0; i < shadow_rays_.size(); ++i) shadow_rays_[i].time = times_[shadow_lanes_[i]];
+  }
   geometry_.caster().occluded(shadow_rays_, shadow_distances_, coherence, blocked_);
   for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
     if (blocked_[i] == 0) add_light(shadow_lanes_[i], shadow_light_[i]);

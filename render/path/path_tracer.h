@@ -1,14 +1,19 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "render/camera.h"
 #include "render/path/bsdf.h"
 #include "render/path/filter.h"
+#include "render/path/lens.h"
 #include "render/path/light.h"
 #include "render/path/random_walk.h"
 #include "render/path/sampler.h"
 #include "render/path/scene_geometry.h"
+#include "render/path/sky_sampler.h"
+#include "render/path/sun.h"
 #include "render/render_scene.h"
 #include "render/settings.h"
 
@@ -23,9 +28,15 @@ struct Shading {
   std::vector<Bsdf> brdfs;  // a mesh each, then the ground's
   std::vector<RectangleLight> lights;
   std::vector<float> pick;  // probability of each light where one is picked
+  std::vector<SunLight> suns;
+  std::vector<float> sun_pick;  // likewise
   Ground ground;
   Sky sky;
+  std::optional<SkySampler> sky_sampler;  // of a sky with a map
   std::optional<Color> background;
+
+  /// What the camera sees along a direction that meets nothing.
+  Color open_view(const Vec3& direction) const;
 
   const Bsdf& ground_brdf() const { return brdfs.back(); }
 };
@@ -39,9 +50,9 @@ struct Tile {
 /// packets. Keeps its room from batch to batch.
 ///
 /// At each surface, light arrives by next-event estimation of the area lights and the sky and by the
-/// scattered ray that finds them, weighed by the power heuristic [Veach 1997]. From the fourth surface on,
-/// dim paths are ended by Russian roulette. The lights are no obstacle; one that is visible is opaque to the
-/// camera.
+/// scattered ray that finds them (of suns likewise), weighed by the power heuristic [Veach 1997]. From the
+/// fourth surface on, dim paths are ended by Russian roulette. The lights are no obstacle; one that is
+/// visible is opaque to the camera.
 ///
 /// Clear insides: shadow rays do not pass them, light behind is found by the scattered ray alone. From
 /// inside, what the surface lets out is estimated like any other light. Cloudy insides: a path that enters
@@ -54,6 +65,12 @@ public:
   /// Mean radiance of the tile's pixels into `color`, 3 floats a pixel of the whole picture. Sums go in the
   /// order of the samples. `statistics`, of the same tile, takes every sample; nullptr: none is kept.
   void trace(const Tile&, const FrameSamples&, float* color, TileStatistics* statistics = nullptr);
+
+  struct PixelSample {
+    int x, y, sample;
+  };
+  /// The radiance of single samples, one each.
+  void trace(std::span<const PixelSample>, const FrameSamples&, std::span<Color> radiance);
 
 private:
   struct Path {
@@ -90,6 +107,9 @@ private:
     bool on_mesh;
   };
 
+  void begin_batch(std::size_t count);
+  void begin_path(std::uint32_t lane, int x, int y, const PathSamples&);
+  void finish_batch();
   void trace_batch(std::uint32_t depth);
   void arrive(std::uint32_t depth);
   Ahead look(const Ray&, const MeshHit&) const;
@@ -106,6 +126,7 @@ private:
   float pick_probability(std::size_t light, std::uint32_t depth) const;
   void gather_lights(std::uint32_t depth);
   void gather_light(const Vertex&, const RectangleLight&, float pick, Pair);
+  void gather_suns(std::uint32_t depth);
   void gather_sky(std::uint32_t depth);
   void push_shadow(const Ray&, float distance, const Color& arriving, std::uint32_t lane);
   void trace_shadows(Coherence);
@@ -115,6 +136,8 @@ private:
   const Shading& shading_;
   const Camera& camera_;
   const PixelFilter& filter_;
+  Aperture aperture_;
+  bool moving_;  // rays have times
   std::uint32_t samples_, bounces_, clear_bounces_;
   float clamp_;  // of indirect light; 0: none
 
@@ -131,6 +154,7 @@ private:
   std::vector<std::uint32_t> shadow_lanes_;
   std::vector<std::uint8_t> blocked_;
   std::vector<Color> radiance_;  // of each lane
+  std::vector<float> times_;     // of each lane, where rays have them
 };
 
 }  // namespace lagomorph::render::path

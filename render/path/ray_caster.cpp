@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
 
 #include "render/error.h"
 
@@ -55,7 +56,7 @@ void load(typename Packet<N>::Rays& packet, int k, const Ray& ray, float distanc
   packet.dir_x[k] = ray.direction.x();
   packet.dir_y[k] = ray.direction.y();
   packet.dir_z[k] = ray.direction.z();
-  packet.time[k] = 0.0F;
+  packet.time[k] = ray.time;
   packet.tfar[k] = distance;
   packet.mask[k] = 0xffffffffU;
   packet.id[k] = 0;
@@ -108,10 +109,20 @@ struct RayCaster::Impl {
   RTCScene scene = nullptr;
   std::vector<RTCGeometry> geometries;  // a mesh each, owned by the scene; null without triangles
   int packet_width = 4;
+  bool moving = false;
 
   ~Impl() {
     if (scene != nullptr) rtcReleaseScene(scene);
     if (device != nullptr) rtcReleaseDevice(device);
+  }
+
+  void set_positions(int mesh, unsigned step, std::span<const Vec3> positions) const {
+    RTCGeometry geometry = geometries[static_cast<std::size_t>(mesh)];
+    if (geometry == nullptr) return;
+    std::copy(positions.begin(), positions.end(),
+              static_cast<Vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, step)));
+    rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step);
+    rtcCommitGeometry(geometry);
   }
 
   void check(const char* what) const {
@@ -139,7 +150,8 @@ RayCaster::RayCaster() : impl_(std::make_unique<Impl>()) {
 
 RayCaster::~RayCaster() = default;
 
-void RayCaster::build(std::span<const Mesh> meshes) {
+void RayCaster::build(std::span<const Mesh> meshes, bool moving) {
+  impl_->moving = moving;
   if (impl_->scene != nullptr) rtcReleaseScene(impl_->scene);
   impl_->geometries.clear();
   impl_->scene = rtcNewScene(impl_->device);
@@ -154,12 +166,18 @@ void RayCaster::build(std::span<const Mesh> meshes) {
     }
     RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
-    void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                              sizeof(Vec3), mesh.positions.size());
+    // The last time step is the frame.
+    if (moving) rtcSetGeometryTimeStepCount(geometry, 2);
+    void* positions = nullptr;
+    for (unsigned step = 0; step < (moving ? 2U : 1U); ++step) {
+      positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3,
+                                          sizeof(Vec3), mesh.positions.size());
+      if (positions != nullptr)
+        std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<Vec3*>(positions));
+    }
     void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                               sizeof(Triangle), mesh.triangles.size());
     if (positions != nullptr && triangles != nullptr) {
-      std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<Vec3*>(positions));
       std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * sizeof(Triangle));
       rtcCommitGeometry(geometry);
       rtcAttachGeometryByID(impl_->scene, geometry, static_cast<unsigned>(impl_->geometries.size()));
@@ -172,16 +190,19 @@ void RayCaster::build(std::span<const Mesh> meshes) {
 }
 
 void RayCaster::move(int mesh, std::span<const Vec3> positions) {
-  RTCGeometry geometry = impl_->geometries[static_cast<std::size_t>(mesh)];
-  if (geometry == nullptr) return;
-  std::copy(positions.begin(), positions.end(),
-            static_cast<Vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0)));
-  rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
-  rtcCommitGeometry(geometry);
+  impl_->set_positions(mesh, impl_->moving ? 1 : 0, positions);
 }
 
+void RayCaster::open(int mesh, std::span<const Vec3> positions) { impl_->set_positions(mesh, 0, positions); }
+
 void RayCaster::commit() {
-  rtcCommitScene(impl_->scene);
+  if (impl_->moving) {
+    // Embree refits nothing that moves. One thread makes the same hierarchy whatever the number of threads.
+    tbb::task_arena alone(1);
+    alone.execute([&] { rtcCommitScene(impl_->scene); });
+  } else {
+    rtcCommitScene(impl_->scene);
+  }
   impl_->check("build the ray tracing hierarchy");
 }
 

@@ -30,7 +30,7 @@ Vec3 facing(const Vec3& n, const Vec3& wo) {
 
 }  // namespace
 
-SceneGeometry::SceneGeometry(const RenderScene& scene) : ground_(scene.ground) {
+SceneGeometry::SceneGeometry(const RenderScene& scene) : ground_(scene.ground), moving_(scene.moving) {
   meshes_.reserve(scene.meshes.size());
   for (const Mesh& m : scene.meshes) {
     meshes_.push_back({m.triangles,
@@ -40,14 +40,24 @@ SceneGeometry::SceneGeometry(const RenderScene& scene) : ground_(scene.ground) {
                        m.smooth,
                        true,
                        m.material.transmission > 0.0F || m.material.subsurface > 0.0F,
-                       m.colors});
+                       m.colors,
+                       {},
+                       {}});
   }
-  caster_.build(scene.meshes);
+  caster_.build(scene.meshes, moving_);
 }
 
 void SceneGeometry::move(int mesh, std::span<const Vec3> positions) {
   Moving& m = meshes_[static_cast<std::size_t>(mesh)];
   std::copy(positions.begin(), positions.end(), m.positions.begin());
+  m.moved = true;
+  m.opening.clear();
+  m.opening_normals.clear();
+}
+
+void SceneGeometry::open(int mesh, std::span<const Vec3> positions) {
+  Moving& m = meshes_[static_cast<std::size_t>(mesh)];
+  m.opening.assign(positions.begin(), positions.end());
   m.moved = true;
 }
 
@@ -63,9 +73,24 @@ void SceneGeometry::commit() {
     m.moved = false;
     any = true;
     if (m.smooth) m.topology.compute(m.triangles, m.positions, m.normals);
+    if (m.smooth && !m.opening.empty()) m.topology.compute(m.triangles, m.opening, m.opening_normals);
     caster_.move(static_cast<int>(i), m.positions);
+    if (moving_) caster_.open(static_cast<int>(i), m.opening.empty() ? m.positions : m.opening);
   }
   if (any) caster_.commit();
+}
+
+/// Between opening and close as a straight line.
+Eigen::Vector3d SceneGeometry::position(const Moving& m, std::uint32_t vertex, float time) const {
+  const Eigen::Vector3d close = m.positions[vertex].cast<double>();
+  if (m.opening.empty()) return close;
+  const Eigen::Vector3d open = m.opening[vertex].cast<double>();
+  return open + static_cast<double>(time) * (close - open);
+}
+
+Vec3 SceneGeometry::normal(const Moving& m, std::uint32_t vertex, float time) const {
+  if (m.opening_normals.empty()) return m.normals[vertex];
+  return ((1.0F - time) * m.opening_normals[vertex] + time * m.normals[vertex]).normalized();
 }
 
 SceneGeometry::TriangleHit SceneGeometry::meet(const Ray& ray, const MeshHit& hit) const {
@@ -73,9 +98,9 @@ SceneGeometry::TriangleHit SceneGeometry::meet(const Ray& ray, const MeshHit& hi
   const Moving& m = meshes_[hit.mesh];
   const Triangle& triangle = m.triangles[hit.triangle];
   const Eigen::Vector3d d = ray.direction.cast<double>();
-  const Eigen::Vector3d a = m.positions[triangle[0]].cast<double>();
-  const Eigen::Vector3d e1 = m.positions[triangle[1]].cast<double>() - a;
-  const Eigen::Vector3d e2 = m.positions[triangle[2]].cast<double>() - a;
+  const Eigen::Vector3d a = position(m, triangle[0], ray.time);
+  const Eigen::Vector3d e1 = position(m, triangle[1], ray.time) - a;
+  const Eigen::Vector3d e2 = position(m, triangle[2], ray.time) - a;
   const Eigen::Vector3d s = ray.origin.cast<double>() - a;
   const Eigen::Vector3d p = d.cross(e2);
   const double det = e1.dot(p);
@@ -89,7 +114,9 @@ SceneGeometry::TriangleHit SceneGeometry::meet(const Ray& ray, const MeshHit& hi
 SurfacePoint SceneGeometry::arrive(const Ray& ray, const MeshHit& hit, const TriangleHit& at) const {
   const Moving& m = meshes_[hit.mesh];
   const Triangle& triangle = m.triangles[hit.triangle];
-  const Vec3 x[3] = {m.positions[triangle[0]], m.positions[triangle[1]], m.positions[triangle[2]]};
+  const Vec3 x[3] = {position(m, triangle[0], ray.time).cast<float>(),
+                     position(m, triangle[1], ray.time).cast<float>(),
+                     position(m, triangle[2], ray.time).cast<float>()};
   const Vec3 wo = -ray.direction;
   const Eigen::Vector3d e1 = (x[1] - x[0]).cast<double>();
   const Eigen::Vector3d e2 = (x[2] - x[0]).cast<double>();
@@ -102,8 +129,8 @@ SurfacePoint SceneGeometry::arrive(const Ray& ray, const MeshHit& hit, const Tri
   Vec3 start = p;
   Vec3 start_beyond = p;
   if (m.smooth) {
-    const Vec3 n[3] = {side * m.normals[triangle[0]], side * m.normals[triangle[1]],
-                       side * m.normals[triangle[2]]};
+    const Vec3 n[3] = {side * normal(m, triangle[0], ray.time), side * normal(m, triangle[1], ray.time),
+                       side * normal(m, triangle[2], ray.time)};
     const float weight[3] = {static_cast<float>(1.0 - at.u - at.v), static_cast<float>(at.u),
                              static_cast<float>(at.v)};
     const Vec3 sum = weight[0] * n[0] + weight[1] * n[1] + weight[2] * n[2];

@@ -29,6 +29,9 @@ public:
 
   void move(int mesh, std::span<const Vec3> positions);
   void color(int mesh, std::span<const Color> colors);
+  /// Where the mesh is at time 0, of a scene that is `moving`; move() makes it stand still.
+  void open(int mesh, std::span<const Vec3> positions);
+  bool moving() const { return moving_; }
   /// Makes the normals and the hierarchy follow what has moved.
   void commit();
   const RayCaster& caster() const { return caster_; }
@@ -60,11 +63,16 @@ private:
     VertexNormals topology;
     bool smooth;
     bool moved;
-    bool has_inside;            // rays go through
-    std::vector<Color> colors;  // a vertex; or none
+    bool has_inside;                    // rays go through
+    std::vector<Color> colors;          // a vertex; or none
+    std::vector<Vec3> opening;          // positions at time 0; empty when it stands still
+    std::vector<Vec3> opening_normals;  // likewise
   };
+  Eigen::Vector3d position(const Moving&, std::uint32_t vertex, float time) const;
+  Vec3 normal(const Moving&, std::uint32_t vertex, float time) const;
   std::vector<Moving> meshes_;
   Ground ground_;
+  bool moving_;
   RayCaster caster_;
 };
 

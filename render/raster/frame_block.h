@@ -21,7 +21,8 @@ struct LightBlock {
   Vec4 position;  // xyz [m]
   Vec4 right;     // xyz unit, w half the width [m]
   Vec4 up;        // xyz unit, w half the height [m]
-  Vec4 normal;    // xyz unit
+  Vec4 normal;    // xyz unit; w solid angle of what is so far that it is the same everywhere, a sun; 0
+                  // otherwise [sr]
   Vec4 radiance;  // rgb [W/(sr m^2)]
   Vec4 map;       // tangents (x/z, y/z) to the shadow map's [0, 1]: scale xy, offset zw
   Vec4 depth;  // 1/z = d x + y of a depth d in the map; z: the largest 1/z of a caster; w: least height of a

@@ -6,6 +6,7 @@
 #include "render/raster/light_view.h"
 #include "render/raster/shaders/shaders.h"
 #include "render/raster/sky_model.h"
+#include "render/raster/stand_ins.h"
 
 namespace lagomorph::render::raster {
 namespace {
@@ -104,7 +105,8 @@ void LightMaps::set_scene(const RenderScene& scene, FrameBlock& block) {
     b.position = vec4(light.position, 1.0F);
     b.right = vec4(frame.right, 0.5F * light.size.x());
     b.up = vec4(frame.up, 0.5F * light.size.y());
-    b.normal = vec4(frame.normal, 0.0F);
+    const std::size_t first_sun = scene.lights.size() - scene.suns.size();
+    b.normal = vec4(frame.normal, i < first_sun ? 0.0F : solid_angle(scene.suns[i - first_sun]));
     b.radiance = vec4(Color(light.color * light.radiance), 0.0F);
   }
   block.sky = sky_directions(scene.sky);

@@ -18,7 +18,7 @@ class LightMaps {
 public:
   explicit LightMaps(const RasterSettings&);
 
-  /// Lights, sky and ground of the scene into the frame's block.
+  /// Lights, sky and ground of the scene (with_stand_ins()) into the frame's block.
   void set_scene(const RenderScene&, FrameBlock&);
   /// Fits the maps to new positions and says so in the frame's block.
   void fit(const RenderScene&, std::span<const std::vector<Vec3>> positions, FrameBlock&);

@@ -14,8 +14,9 @@
 #include "render/raster/light_maps.h"
 #include "render/raster/mesh_buffers.h"
 #include "render/raster/optics_stand_in.h"
-#include "render/raster/seen_programs.h"
+#include "render/raster/programs.h"
 #include "render/raster/shaders/shaders.h"
+#include "render/raster/stand_ins.h"
 #include "render/raster/targets.h"
 #include "render/raster/view_range.h"
 
@@ -39,36 +40,6 @@ RasterSettings checked(const RasterSettings& s) {
   }
   return s;
 }
-
-/// All but those of LightMaps, and those that few scenes need.
-struct Programs {
-  explicit Programs(int multisample)
-      : samples_("#define SAMPLES " + std::to_string(multisample) + "\n"),
-        seen(multisample, false),
-        ground_cover("ground cover", {shaders::frame, shaders::ground_vertex},
-                     {shaders::frame, shaders::ground_point, shaders::ground_cover_fragment}),
-        background("background", {shaders::full_screen_vertex},
-                   {shaders::frame, shaders::sky, shaders::background_fragment}),
-        ground("ground", {shaders::frame, shaders::ground_vertex},
-               {shaders::frame, shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point,
-                shaders::ground_fragment}),
-        shadowed_ground("shadowed ground", {shaders::frame, shaders::ground_vertex},
-                        {"#define SHADOWS\n", shaders::frame, shaders::brdf, shaders::shadow, shaders::sky,
-                         shaders::shade, shaders::ground_point, shaders::ground_fragment}),
-        count("count of layers", {shaders::full_screen_vertex},
-              {samples_.c_str(), shaders::frame, shaders::layers, shaders::count_fragment}),
-        mesh_depth("mesh depth", {shaders::frame, shaders::mesh_vertex},
-                   {shaders::frame, shaders::mesh_depth_fragment}),
-        ground_depth("ground depth", {shaders::frame, shaders::ground_vertex},
-                     {shaders::frame, shaders::ground_point, shaders::ground_depth_fragment}) {}
-
-private:
-  std::string samples_;
-
-public:
-  SeenPrograms seen;
-  Program ground_cover, background, ground, shadowed_ground, count, mesh_depth, ground_depth;
-};
 
 class RasterRenderer final : public Renderer {
 public:
@@ -147,13 +118,12 @@ SurfaceBlock surface_block(const Material& material) {
 
 void RasterRenderer::set_scene(const RenderScene& scene) {
   check_scene(scene);
-  if (scene.lights.size() > static_cast<std::size_t>(most_lights)) {
+  if (scene.lights.size() + scene.suns.size() > static_cast<std::size_t>(most_lights)) {
     throw SettingsError("the raster back end draws at most " + std::to_string(most_lights) +
-                        " lights; this scene has " + std::to_string(scene.lights.size()));
+                        " lights; this scene has " + std::to_string(scene.lights.size() + scene.suns.size()));
   }
   context_->make_current();
-  scene_ = scene;
-  scene_.meshes.clear();
+  scene_ = with_stand_ins(scene);
   positions_.clear();
   body_ids_.clear();
   gl_->meshes.clear();
@@ -175,7 +145,7 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
 void RasterRenderer::upload_surfaces(const RenderScene& scene) {
   std::vector<SurfaceBlock> surfaces = {surface_block(scene.ground.material)};
   for (const Mesh& mesh : scene.meshes) surfaces.push_back(surface_block(mesh.material));
-  for (const AreaLight& light : scene.lights)
+  for (const AreaLight& light : scene_.lights)
     surfaces.push_back({vec4(Color(light.radiance * light.color), 1.0F), Vec4::Zero()});
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, gl_->surfaces.id());
   glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(surfaces.size() * sizeof(SurfaceBlock)),

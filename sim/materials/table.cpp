@@ -125,6 +125,8 @@ void check_material(const MaterialSettings& settings, const std::string& where) 
   const Row& model = find(settings.model, where);
   if (!settings.data.empty() && settings.model != StressStrain::kName)
     throw InputError(where + ": data belong to " + StressStrain::kName + ", not to " + settings.model);
+  if (settings.moduli != "lecture" && settings.model != "neo_hookean")
+    throw InputError(where + ": moduli belong to neo_hookean, not to " + settings.model);
   model.check(settings, where);
   if (settings.fibre) Fibre::from_settings(settings, where);
 }

@@ -46,6 +46,10 @@ float angle_over_sine(float c) {
 // Irradiance on a surface at x with normal n of a whole rectangle of radiance 1, by Lambert's formula; where the
 // surface's horizon cuts the rectangle, that of the sphere with the same form factor [Snyder 1996].
 float rectangle_irradiance(Light light, vec3 x, vec3 n, out vec3 direction) {
+  if (light.normal.w > 0.0) {
+    direction = -light.normal.xyz;
+    return light.normal.w * max(dot(n, direction), 0.0);
+  }
   vec3 c = light.position.xyz - x;
   vec3 r = light.right.w * light.right.xyz;
   vec3 u = light.up.w * light.up.xyz;

@@ -70,8 +70,9 @@ void main() {
 }
 )";
 
-// What is seen in each sample: depth, the two normals, and 1 + the number of the surface; with COLORS the vertices'
-// colour where they have one, w 1. Triangles are small and their pixels many, so that nothing is lit here.
+// What is seen in each sample: depth, the two normals, and 1 + the number of the surface; with COLORS the
+// vertices' colour where they have one, w 1. Triangles are small and their pixels many, so that nothing is
+// lit here.
 const char* const seen_fragment = R"(
 #ifndef EMITTER
 in vec3 smooth_normal;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/kinematics.h"
+#include "tests/support/ledger.h"
 #include "tests/unit/sim/mesh_fixtures.h"
 #include "tests/unit/sim/motion.h"
 
@@ -259,6 +260,9 @@ TEST(Viscosity, LeavesFreeRotationAlone) {
     return lost;
   };
   const Vec3 viscous = losses_of({.mass = 0.0, .stiffness = 0.0, .viscosity = 2000.0});
+  tell("viscosity", {"second of free rotation", "loss by viscosity / kinetic energy at the start"},
+       {"1", told(viscous[0])});
+  tell("viscosity", {}, {"3", told(viscous[2])});
   EXPECT_LT(viscous[0], 1e-3);
   EXPECT_LT(viscous[2], 1e-9) << viscous.transpose();
   EXPECT_GT(losses_of({.mass = 0.5, .stiffness = 0.0, .viscosity = 0.0})[0], 0.5);

@@ -110,5 +110,38 @@ TEST(Newton, ConvergesQuadratically) {
   }
 }
 
+/// Of a linear material the trapezoidal rule is exact: what pins and loads do is what the springs of its tets
+/// keep, in one load step or several.
+TEST(Static, WorkIsTheChangeOfElasticEnergy) {
+  for (const int substeps : {1, 3}) {
+    BodyInput body{cube_mesh(2), {}};
+    body.settings.material = {.model = "linear", .young = 1e5, .poisson = 0.3};
+    body.settings.pin.emplace_back().box = BoxSelector{Vec3(-9, -9, -9), Vec3(9, 1e-9, 9)};
+    PinSettings& top = body.settings.pin.emplace_back();
+    top.box = BoxSelector{Vec3(-9, 1.0 - 1e-9, -9), Vec3(9, 9, 9)};
+    top.key = {{.time = 0.1, .translate = Vec3(0.02, 0.01, 0)}};
+    body.settings.load.emplace_back().body_force = Vec3(300, 0, -200);
+    Motion run(Model({body}, Vec3::Zero()), "static", 10.0, 1e-12);
+    run.time.substeps = substeps;
+    FrameReport report = run.advance();
+    ASSERT_TRUE(is_good(report.status)) << report.reason;
+    const double elastic = run.model.energies_of(run.state).elastic;
+    EXPECT_GT(std::abs(report.work_loads), 0.01 * elastic);
+    EXPECT_NEAR(report.work_pins + report.work_loads, elastic, 1e-9 * elastic) << substeps;
+  }
+}
+
+/// A soft body that nothing holds is at rest where there is no gravity, wherever it is turned inside out
+/// from.
+TEST(Static, FindsItsWayHomeWithoutPins) {
+  BodyInput body{cube_mesh(2), {}};
+  body.settings.material = {.model = "stable_neo_hookean", .young = 1e5, .poisson = 0.3};
+  body.settings.start = "scramble";
+  Motion run(Model({body}, Vec3::Zero()), "static", 10.0, 1e-6);
+  const FrameReport report = run.advance();
+  ASSERT_TRUE(is_good(report.status)) << report.reason;
+  EXPECT_LT(run.model.energies_of(run.state).elastic, 1e-6);
+}
+
 }  // namespace
 }  // namespace lagomorph::sim

@@ -6,7 +6,7 @@
 
 #include "apps/pipeline/build_scene.h"
 #include "apps/scene/scene.h"
-#include "tests/support/paths.h"
+#include "tests/support/run_tree.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -87,7 +87,8 @@ TEST(SurfaceFields, VolumeRatiosAreEvenAroundOne) {
   EXPECT_NEAR(range[1], 1.5, 1e-12);
   const render::Colormap& map = render::find_colormap("coolwarm");
   for (const auto& [J, place] : {std::pair(1.0, 0.5F), std::pair(1.5, 1.0F), std::pair(0.75, 0.25F)}) {
-    for (const render::Color& color : bar.fields.colors(bar.X * std::cbrt(J)).at(0))
+    const auto colors = bar.fields.colors(bar.X * std::cbrt(J));
+    for (const render::Color& color : colors.at(0))
       EXPECT_LT((color - render::color_of(map, place)).abs().maxCoeff(), 1e-4F) << J;
   }
   Shown plain({"body.0.look.field=J", "body.0.look.colormap=viridis"});

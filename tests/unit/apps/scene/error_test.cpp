@@ -48,9 +48,13 @@ TEST(WrongScene, Keys) {
              "a.toml:2:1: unknown key 'radius'; it belongs in [body.pin.sphere], [body.spring.sphere], "
              "[body.load.sphere], [body.region.sphere], [[body.field]], [ground]"},
        Wrong{"[sky]\nqqqqqq = 3",
-             "a.toml:2:1: unknown key 'qqqqqq'; known in [sky] are zenith, horizon, strength"},
+             "a.toml:2:1: unknown key 'qqqqqq'; known in [sky] are model, zenith, horizon, strength, image, "
+             "rotation, elevation, "
+             "azimuth, turbidity"},
        Wrong{"[sky]\nzzz = 3\naaa = 4",
-             "a.toml:2:1: unknown key 'zzz'; known in [sky] are zenith, horizon, strength"},
+             "a.toml:2:1: unknown key 'zzz'; known in [sky] are model, zenith, horizon, strength, image, "
+             "rotation, elevation, "
+             "azimuth, turbidity"},
        Wrong{"qqqqqq = 3",
              "a.toml:1:1: unknown key 'qqqqqq'; known at the top are name, time, solver, body, camera, "
              "render, ground, light, sky, background"}});

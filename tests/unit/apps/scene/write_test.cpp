@@ -48,7 +48,9 @@ private:
   void fill(const Key& k, int& value) {
     value = static_cast<int>(std::max(k.bounds.low, -1e6) +
                              (std::min(k.bounds.high, 1e6) - std::max(k.bounds.low, -1e6)) * unit());
-    if (k.holds != nullptr) value = std::string(k.name) == "multisample" ? 1 + 3 * below(2) : 256 << below(6);
+    if (k.holds == nullptr) return;
+    do value = below(2) == 0 ? below(8) : 1 << below(16);
+    while (!k.bounds.hold(value) || !k.holds(value));
   }
   void fill(const Key&, std::uint32_t& value) { value = static_cast<std::uint32_t>(random_()); }
   void fill(const Key& k, double& value) { value = number(k.bounds, 300.0); }
@@ -82,6 +84,10 @@ private:
   void fill(const Key& k, sim::BoxSelector& value) {
     fill(k, value.min);
     value.max = value.min + value.min.cwiseAbs();
+  }
+  void fill(const Key&, std::array<double, 2>& value) {
+    value[0] = 1e3 * (unit() - 0.5);
+    value[1] = value[0] + 1.0 + unit();
   }
   void fill(const Key& k, std::vector<int>& value) {
     value.resize(static_cast<std::size_t>(below(5)));
@@ -165,7 +171,7 @@ void settle(SceneDesc& s, RandomFill& random) {
 class Flat : public KeyVisitor {
 public:
   using Value = std::variant<bool, int, std::uint32_t, double, float, std::string, sim::Vec3, render::Vec2,
-                             render::Vec3, std::vector<int>, std::vector<std::string>,
+                             render::Vec3, std::array<double, 2>, std::vector<int>, std::vector<std::string>,
                              std::vector<std::array<double, 2>>, std::vector<double>, std::vector<sim::Vec3>,
                              std::monostate>;
   std::vector<std::pair<std::string, Value>> values;

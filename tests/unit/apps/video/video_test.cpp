@@ -74,6 +74,27 @@ TEST(Video, IsWhatPlayersTake) {
   EXPECT_EQ(tests::count_files(dir.path()), 2) << "nothing is left beside the video and the probe's text";
 }
 
+TEST(Video, HasOtherCodecs) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not on the PATH";
+  const tests::TemporaryDirectory dir;
+  VideoJob job = job_of(dir, "frames", 2, 5, 64, 48);
+  for (const auto& [codec, name, format] :
+       {std::tuple("h264", "h264", "yuv420p"), std::tuple("h265", "hevc", "yuv420p"),
+        std::tuple("vp9", "vp9", "yuv420p"), std::tuple("prores", "prores", "yuv422p10le")}) {
+    job.codec = codec;
+    job.output = dir.path() / ("video" + video_extension(codec));
+    ASSERT_TRUE(make_video(job, never));
+    const std::string text = probe(job.output, dir.path());
+    EXPECT_NE(text.find("codec_name=" + std::string(name) + " "), std::string::npos) << text;
+    EXPECT_NE(text.find("pix_fmt=" + std::string(format) + " "), std::string::npos) << text;
+    EXPECT_NE(text.find("r_frame_rate=25/2"), std::string::npos) << text;
+    const std::string bytes = tests::read_all(job.output);
+    ASSERT_TRUE(make_video(job, never));
+    EXPECT_TRUE(tests::read_all(job.output) == bytes) << codec << ": the same pictures give the same bytes";
+  }
+  EXPECT_THROW(video_extension("divx"), Error);
+}
+
 TEST(Video, KeepsTheColours) {
   if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not on the PATH";
   const tests::TemporaryDirectory dir;

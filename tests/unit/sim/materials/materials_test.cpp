@@ -155,6 +155,8 @@ TEST_P(Materials, RestAtTheIdentityAndAnyRotation) {
   const Mat3 R = Eigen::AngleAxisd(1.1, Vec3(1, 2, -1).normalized()).toRotationMatrix();
   EXPECT_NEAR(material.psi(R), 0.0, 1e-14 * kYoung);
   EXPECT_LT(material.dpsi_dF(R).cwiseAbs().maxCoeff(), 1e-14 * kYoung);
+  tell("rotation", {"model", "largest entry of P at a rotation / E"},
+       {row.name, told(material.dpsi_dF(R).cwiseAbs().maxCoeff() / kYoung)});
 }
 
 /// All are objective but linear elasticity, and isotropic but that and fibres; those fail to be by far.

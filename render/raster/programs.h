@@ -12,4 +12,12 @@ struct SeenPrograms {
   Program mesh, light, layer;
 };
 
+/// All but those of LightMaps, and those that few scenes need.
+struct Programs {
+  explicit Programs(int multisample);
+
+  SeenPrograms seen;
+  Program ground_cover, background, ground, shadowed_ground, count, mesh_depth, ground_depth;
+};
+
 }  // namespace lagomorph::render::raster
