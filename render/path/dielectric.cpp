@@ -42,6 +42,10 @@ Vec3 refracted(const Vec3& wo, const Vec3& h, float eta) {
   return (c / eta - std::sqrt(1.0F - sine2)) * h - wo / eta;
 }
 
+/// Probability of following the reflection of the part f. From outside lamps are seen in it that no other
+/// sample finds where the surface is smooth.
+float reflection_pick(float f, bool outside) { return outside ? std::max(f, 0.15F) : f; }
+
 Vec3 mirrored(const Vec3& w) { return {w.x(), w.y(), -w.z()}; }
 
 /// Part of the light along a cosine that single scattering lets go, over a lattice of visible normals.
@@ -156,9 +160,10 @@ Brdf::Value Dielectric::scatter_once(const View& view, const Vec3& wi_given, con
   // Density of h, of wi where h is the visible normal [Walter et al. 2007, Eqs. 14, 17].
   const float normals = 2.0F / (1.0F + masking(wo, view.alpha)) * oh * ggx(h, view.alpha) / wo.z();
   const float jacobian = back ? 0.25F / oh : eta * eta * -ih / square(oh + eta * ih);
-  const float pdf = part * normals * jacobian;
+  const float pick = reflection_pick(f, outside);
+  const float pdf = (back ? pick : 1.0F - pick) * normals * jacobian;
   const float scale = back ? 1.0F : 1.0F / (eta * eta);
-  const float f_cos = pdf * masking_of_arrival(wo, wi, view.alpha, back) * scale;
+  const float f_cos = part * normals * jacobian * masking_of_arrival(wo, wi, view.alpha, back) * scale;
   return {Color::Constant(f_cos), pdf};
 }
 
@@ -203,7 +208,7 @@ Brdf::Sample Dielectric::sample(const View& view, Pair s, Pair choice) const {
   const Vec3 h = sample_visible_normal(wo, view.alpha, s);
   const float oh = wo.dot(h);
   if (oh <= 0.0F) return {Vec3::UnitZ(), {}};
-  const bool back = choice.v < fresnel(std::min(oh, 1.0F), eta);
+  const bool back = choice.v < reflection_pick(fresnel(std::min(oh, 1.0F), eta), outside);
   wi = back ? reflected(wo, h) : refracted(wo, h, eta);
   if (back ? wi.z() <= 0.0F : wi.z() >= 0.0F) return {Vec3::UnitZ(), {}};
   wi.normalize();

@@ -173,7 +173,7 @@ TEST(Dielectric, ASmoothOneBendsBySnell) {
           const Brdf::Sample s = glass.sample(glass.view(wo), p.pair(0), p.pair(1));
           if ((s.direction.z() > 0.0F) == outside || s.value.pdf <= 0.0F) continue;
           mean += s.direction.cast<double>();
-          through += 1.0 / n;
+          through += static_cast<double>(s.value.f_cos.y()) / s.value.pdf * eta * eta / n;
         }
         mean.normalize();
         EXPECT_NEAR(mean.x(), -sine / eta, 1e-4) << ior << " " << sine;
