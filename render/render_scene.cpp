@@ -29,6 +29,18 @@ void check_material(const std::string& what, const Material& m) {
   check_range(what + " roughness", m.roughness, 0.0F, 1.0F, "in [0, 1]");
   check_range(what + " metallic", m.metallic, 0.0F, 1.0F, "in [0, 1]");
   check_range(what + " ior", m.ior, 1.0F, 10.0F, "in [1, 10]");
+  check_range(what + " transmission", m.transmission, 0.0F, 1.0F, "in [0, 1]");
+  check_color(what + " absorption_color", m.absorption_color, 1.0F, "in [0, 1]");
+  check_range(what + " absorption_distance", m.absorption_distance, 1e-6F, largest, "in [1e-6, 1e6] m");
+  check_range(what + " subsurface", m.subsurface, 0.0F, 1.0F, "in [0, 1]");
+  check_color(what + " subsurface_color", m.subsurface_color, 1.0F, "in [0, 1]");
+  for (int i = 0; i < 3; ++i)
+    check_range(what + " subsurface_radius", m.subsurface_radius[i], 1e-6F, largest, "in [1e-6, 1e6] m");
+  check_range(what + " coat", m.coat, 0.0F, 1.0F, "in [0, 1]");
+  check_range(what + " coat_roughness", m.coat_roughness, 0.0F, 1.0F, "in [0, 1]");
+  check_range(what + " sheen", m.sheen, 0.0F, 1.0F, "in [0, 1]");
+  check_color(what + " sheen_tint", m.sheen_tint, 1.0F, "in [0, 1]");
+  check_range(what + " sheen_roughness", m.sheen_roughness, 0.0F, 1.0F, "in [0, 1]");
 }
 
 void check_mesh(const Mesh& mesh, std::size_t index) {

@@ -13,13 +13,26 @@
 /// linear.
 namespace lagomorph::render {
 
-/// A dielectric over a diffuse base, or a metal: GGX microfacets with Smith masking, Schlick's Fresnel.
+/// A dielectric over a diffuse base, or a metal: GGX microfacets with Smith masking, Schlick's Fresnel. What
+/// begins at 0 below only the path tracer draws; see raster/optics_stand_in.h.
 struct Material {
   Color base_color =
       Color(0.8F, 0.8F, 0.8F);  // diffuse albedo, or a metal's reflectance at normal incidence, in [0, 1]
   float roughness = 0.5F;       // perceptual, alpha = roughness^2, in [0, 1]
   float metallic = 0.0F;        // 0 dielectric .. 1 metal
   float ior = 1.5F;             // index of refraction of the dielectric's coat, >= 1
+
+  float transmission = 0.0F;                         // part of the dielectric with a clear inside, in [0, 1]
+  Color absorption_color = Color::Ones();            // what the clear inside lets through, in [0, 1], over
+  float absorption_distance = 1.0F;                  // [m], > 0
+  float subsurface = 0.0F;                           // part of the base with a cloudy inside, in [0, 1]
+  Color subsurface_color = Color(0.8F, 0.8F, 0.8F);  // albedo of a thick one, in [0, 1]
+  Color subsurface_radius = Color(0.05F, 0.05F, 0.05F);  // mean free path there, by colour [m], > 0
+  float coat = 0.0F;                                     // a clear varnish of index 1.5 over all, in [0, 1]
+  float coat_roughness = 0.03F;                          // perceptual, in [0, 1]
+  float sheen = 0.0F;                                    // fuzz over all, in [0, 1]
+  Color sheen_tint = Color::Ones();                      // its colour, in [0, 1]
+  float sheen_roughness = 0.5F;                          // in [0, 1]
 };
 
 /// A triangle mesh whose vertices move. Normals follow: vertex_normals() of the current positions when

@@ -2,6 +2,7 @@
 
 #include "render/backends.h"
 #include "render/error.h"
+#include "render/raster/optics_stand_in.h"
 #include "render/raster/stand_ins.h"
 
 namespace lagomorph::render {
@@ -54,9 +55,19 @@ std::unique_ptr<Renderer> make_renderer(const RenderSettings& settings, int thre
 
 std::vector<std::string> renderer_remarks(const RenderSettings& settings, const CameraSettings& camera,
                                           const RenderScene& scene) {
-  if (settings.backend != "raster") return {};
-  std::vector<std::string> remarks = raster::stand_in_remarks(camera, scene);
-  for (std::string& remark : remarks) remark = "raster: " + remark;
+  std::vector<std::string> remarks;
+  if (settings.backend == "raster") {
+    remarks = raster::stand_in_remarks(camera, scene);
+    for (std::string& remark : raster::optics_remarks(scene)) remarks.push_back(std::move(remark));
+  }
+  if (settings.backend == "path" && settings.path.clamp > 0.0F) {
+    std::string value = std::to_string(settings.path.clamp);
+    value.erase(value.find_last_not_of('0') + 1);
+    if (value.back() == '.') value.pop_back();
+    remarks.push_back("render.path.clamp = " + value +
+                      ": indirect light above it is cut, so that pictures are somewhat too dark");
+  }
+  for (std::string& remark : remarks) remark = settings.backend + ": " + remark;
   return remarks;
 }
 

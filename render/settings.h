@@ -16,6 +16,8 @@ struct RasterSettings {
 /// Only the path tracer reads these, but `samples`.
 struct PathSettings {
   int bounces = 4;                         // indirect bounces after the first hit, 0 .. 64
+  int transmission_bounces = 8;            // through or off clear insides, not counted in bounces, 0 .. 256
+  float clamp = 0.0F;                      // most that a path brings of indirect light [W/(sr m^2)]; 0: any
   std::uint32_t seed = 0;                  // of the sample sequence
   std::string filter = "blackman_harris";  // pixel reconstruction: box, gaussian, blackman_harris
   float filter_radius = 1.5F;              // [pixels], in (0, 4]

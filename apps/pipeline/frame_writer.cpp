@@ -90,6 +90,7 @@ PictureRecord FrameWriter::write_picture(int frame, const StateRecord& state,
   PictureRecord record;
   record.sha256 = sha256(png);
   record.made_by = identity_.picture_hash();
+  if (settings_.backend == "path") record.clamp = static_cast<double>(settings_.path.clamp);
   record.ranges = fields_.ranges();
   for (const std::string& name : settings_.channels) {
     const render::Channel* channel = image.find(name);

@@ -97,6 +97,7 @@ FrameRecord from_json(const Json& json) {
     picture.made_by = json.at("picture_made_by").get<std::string>();
     picture.of_state = json.at("picture_of_state").get<std::string>();
     picture.channels = json.at("channels").get<std::map<std::string, std::string>>();
+    picture.clamp = json.value("clamp", 0.0);
     if (json.contains("ranges"))
       picture.ranges = json["ranges"].get<std::map<std::string, std::array<double, 2>>>();
     picture.rendering_seconds = seconds.at("rendering").get<double>();
@@ -144,6 +145,7 @@ Json to_json(const FrameRecord& record) {
     json["picture_made_by"] = picture.made_by;
     json["picture_of_state"] = picture.of_state;
     json["channels"] = picture.channels;
+    if (picture.clamp > 0.0) json["clamp"] = picture.clamp;
     if (!picture.ranges.empty()) json["ranges"] = picture.ranges;
     seconds["rendering"] = picture.rendering_seconds;
     seconds["writing"] = picture.writing_seconds;

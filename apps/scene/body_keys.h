@@ -5,6 +5,8 @@
 /// Keys of a body's physics: what it is made of, and what holds and drives it.
 namespace lagomorph::apps {
 
+/// What of the principled material only the path tracer draws.
+void visit_optics(render::Material&, KeyVisitor&);
 void visit_shown_field(ShownField&, KeyVisitor&);
 void visit_material(sim::MaterialSettings&, KeyVisitor&);
 void visit_damping(sim::DampingSettings&, KeyVisitor&);

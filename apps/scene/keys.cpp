@@ -103,6 +103,7 @@ void visit_look(render::Material& m, KeyVisitor& v) {
 
 void visit_body_look(BodyDesc& b, KeyVisitor& v) {
   visit_look(b.look, v);
+  visit_optics(b.look, v);
   visit_shown_field(b.shown, v);
 }
 
@@ -276,6 +277,15 @@ void visit_raster(render::RasterSettings& r, KeyVisitor& v) {
 void visit_path(render::PathSettings& p, KeyVisitor& v) {
   v.key({.name = "bounces", .bounds = between(0, 64), .meaning = "indirect bounces after the first hit"},
         &p.bounces);
+  v.key({.name = "transmission_bounces",
+         .bounds = between(0, 256),
+         .meaning = "further ones through or off the inside of clear bodies"},
+        &p.transmission_bounces);
+  v.key({.name = "clamp",
+         .unit = "W/(sr m^2)",
+         .bounds = at_least(0),
+         .meaning = "most that a path brings of indirect light, against fireflies; 0: all of it"},
+        &p.clamp);
   v.key({.name = "seed", .meaning = "of the sample sequence"}, &p.seed);
   v.key({.name = "filter", .meaning = "pixel reconstruction", .choices = render::path::filter_names},
         &p.filter);

@@ -30,7 +30,7 @@ float smith_root(const Vec3& w, float alpha) {
 
 }  // namespace
 
-Brdf::Brdf(const Material& m) : metallic_(m.metallic) {
+Brdf::Brdf(const Material& m, float base_share) : metallic_(m.metallic), base_share_(base_share) {
   const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
   coat_f0_ = r * r;
   coat_f90_ = std::min(1.0F, 50.0F * coat_f0_);
@@ -46,7 +46,7 @@ Brdf::Brdf(const Material& m) : metallic_(m.metallic) {
 
 Brdf::Tint Brdf::tint(const Color& base_color) const {
   const Color f0 = (1.0F - metallic_) * Color::Constant(coat_f0_) + metallic_ * base_color;
-  return {(1.0F - metallic_) * inv_pi / mean_into_base_ * base_color, f0,
+  return {(1.0F - metallic_) * inv_pi / mean_into_base_ * base_color * base_share_, f0,
           std::min(1.0F, 50.0F * f0.maxCoeff())};
 }
 
@@ -66,7 +66,7 @@ Brdf::View Brdf::view(const Vec3& wo, float least_alpha, const Color* base_color
   const float coat = luminance(t.f0) * a.scale + t.f90 * a.offset;
   const float all = coat + std::numbers::pi_v<float> * luminance(base);
   const float alpha = std::max(alpha_, least_alpha);
-  return {wo, base, t.f0, t.f90, all > 0.0F ? coat / all : 0.0F, alpha, smith_root(wo, alpha)};
+  return {wo, base, t.f0, t.f90, all > 0.0F ? coat / all : 0.0F, alpha, smith_root(wo, alpha), all};
 }
 
 Brdf::Value Brdf::evaluate(const View& view, const Vec3& wi) const {

@@ -17,7 +17,8 @@ namespace lagomorph::render::path {
 /// arrives. f90 fades to 0 with f0 below 2 % [Lagarde and de Rousiers 2014]: ior = 1 is no coat at all.
 class Brdf {
 public:
-  explicit Brdf(const Material&);
+  /// Of the base only the part `base_share` is drawn.
+  explicit Brdf(const Material&, float base_share = 1.0F);
 
   /// What only depends on the direction of the eye.
   struct View {
@@ -27,7 +28,8 @@ public:
     float f90;
     float coat_probability;  // of sampling the coat
     float alpha;
-    float root;  // cos_o (1 + 2 Lambda(wo))
+    float root;         // cos_o (1 + 2 Lambda(wo))
+    float reflectance;  // about, in luminance
   };
   /// `least_alpha`: the coat is taken to be at least as rough. `base_color`: in place of the material's.
   View view(const Vec3& wo, float least_alpha = 0.0F, const Color* base_color = nullptr) const;
@@ -42,6 +44,14 @@ public:
   };
   Value evaluate(const View&, const Vec3& wi) const;
   Sample sample(const View&, Pair) const;
+
+  /// Part of the light along a cosine that passes the dielectric coat to its base.
+  float let_in(float cosine) const { return into_base(albedo(cosine)); }
+  /// Likewise of light that is spread as the cosine below, with what the coat reflects back to the base
+  /// coming again: 1 in the cosine's mean.
+  float let_out(float cosine) const { return let_in(cosine) / mean_into_base_; }
+  /// Estimate of the luminance reflected of all that arrives.
+  float reflectance(const View& v) const { return v.reflectance; }
 
 private:
   /// Of the surface, by its base colour.
@@ -63,6 +73,7 @@ private:
   float coat_f0_;  // of the dielectric
   float coat_f90_;
   float alpha_;
+  float base_share_;
 };
 
 /// Visible normals of GGX by spherical caps [Dupuy and Benyoub 2023]; the distribution of [Heitz 2018].

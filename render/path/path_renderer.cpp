@@ -35,6 +35,8 @@ public:
         arena_(std::clamp(threads, 1, tbb::info::default_concurrency())) {
     check_range("render.samples", settings.samples, 1, 65536);
     check_range("render.path.bounces", settings.path.bounces, 0, 64);
+    check_range("render.path.transmission_bounces", settings.path.transmission_bounces, 0, 256);
+    if (!(settings.path.clamp >= 0.0F)) throw SettingsError("render.path.clamp must be >= 0");
     check_range("render.path.min_samples", settings.path.min_samples, 1, 65536);
     if (!(settings.path.noise_threshold >= 0.0F))
       throw SettingsError("render.path.noise_threshold must be >= 0");
@@ -138,8 +140,7 @@ private:
                                           static_cast<double>(settings_.path.noise_threshold)};
     const path::FrameSamples numbers(settings_.path.seed, frame, settings_.samples);
     tbb::enumerable_thread_specific<path::PathTracer> tracers([&] {
-      return path::PathTracer(*geometry_, *shading_, camera, filter_, settings_.samples,
-                              settings_.path.bounces);
+      return path::PathTracer(*geometry_, *shading_, camera, filter_, settings_.samples, settings_.path);
     });
     for_tiles(camera, [&](const path::Tile& tile) {
       if (adaptive.threshold > 0.0) {

@@ -27,6 +27,10 @@ constexpr std::uint32_t through_dimension = 3;  // u: ground or what lies behind
 constexpr std::uint32_t light_dimension = 4;    // and the three after it
 constexpr std::uint32_t sun_dimension = 8;
 constexpr std::uint32_t sun_choice_dimension = 9;  // u
+constexpr std::uint32_t lobe_dimension = 10;
+constexpr std::uint32_t clear_dimension = 11;  // of the dielectric's choices
+constexpr std::uint32_t entry_dimension = 12;  // u: into the cloudy inside or not
+constexpr float unseen = 1e18F;  // density of a direction that next-event estimation never takes: it weighs 1
 
 std::uint32_t dimension(std::uint32_t depth, std::uint32_t name) {
   return surface_dimensions * (depth + 1) + name;
@@ -74,7 +78,7 @@ Color Shading::open_view(const Vec3& direction) const {
 }
 
 PathTracer::PathTracer(const SceneGeometry& geometry, const Shading& shading, const Camera& camera,
-                       const PixelFilter& filter, int samples, int bounces)
+                       const PixelFilter& filter, int samples, const PathSettings& settings)
     : geometry_(geometry),
       shading_(shading),
       camera_(camera),
@@ -82,7 +86,9 @@ PathTracer::PathTracer(const SceneGeometry& geometry, const Shading& shading, co
       aperture_(camera),
       moving_(geometry.moving()),
       samples_(static_cast<std::uint32_t>(samples)),
-      bounces_(static_cast<std::uint32_t>(bounces)) {
+      bounces_(static_cast<std::uint32_t>(settings.bounces)),
+      clear_bounces_(static_cast<std::uint32_t>(settings.transmission_bounces)),
+      clamp_(settings.clamp) {
   rays_.reserve(batch_size);
   paths_.reserve(batch_size);
   hits_.reserve(batch_size);
@@ -172,10 +178,12 @@ void PathTracer::trace_batch(std::uint32_t depth) {
     for (std::size_t i = 0; i < rays_.size(); ++i) rays_[i].time = times_[paths_[i].lane];
   }
   geometry_.caster().intersect(rays_, depth == 0 ? Coherence::coherent : Coherence::incoherent, hits_);
+  if (depth == 0) indirect_.assign(radiance_.size(), 0);
   arrive(depth);
+  leave_cloudy_insides();
   rays_.clear();
   paths_.clear();
-  if (depth > bounces_) return;
+  if (vertices_.empty()) return;
   gather_lights(depth);
   gather_suns(depth);
   gather_sky(depth);
@@ -187,11 +195,11 @@ void PathTracer::arrive(std::uint32_t depth) {
   vertices_.clear();
   for (std::size_t i = 0; i < rays_.size(); ++i) {
     const Ray& ray = rays_[i];
-    const Path& path = paths_[i];
+    Path& path = paths_[i];
     Ahead ahead = look(ray, hits_[i]);
-    radiance_[path.lane] +=
-        depth == 0 ? seen_by_camera(ray, ahead) : path.throughput * light_met(ray, path, depth - 1, ahead);
-    if (depth > bounces_) continue;
+    add_light(path.lane, depth == 0 ? seen_by_camera(ray, ahead)
+                                    : path.throughput * light_met(ray, path, depth - 1, ahead));
+    if (depth > bounces_ + path.clear) continue;
     float share = 1.0F;
     if (ahead.ground < SceneGeometry::never) {
       // A fading ground before a mesh: the path takes one of them. Before the sky, whose light is added
@@ -203,12 +211,23 @@ void PathTracer::arrive(std::uint32_t depth) {
         ahead.ground = SceneGeometry::never;
       }
     }
+    indirect_[path.lane] = depth > path.clear ? 1 : 0;
     if (ahead.ground < SceneGeometry::never) {
+      absorb(path, path.inside, ahead.ground);
       begin_vertex(geometry_.arrive_at_ground(ray, ahead.ground), ray, path, shading_.ground_brdf(), share);
     } else if (ahead.on_mesh) {
+      const SurfacePoint at = geometry_.arrive(ray, hits_[i], ahead.mesh);
       const std::optional<Color> color = geometry_.color_at(hits_[i], ahead.mesh);
-      begin_vertex(geometry_.arrive(ray, hits_[i], ahead.mesh), ray, path, shading_.brdfs[hits_[i].mesh],
-                   1.0F, color ? &*color : nullptr);
+      const Bsdf& bsdf = shading_.brdfs[hits_[i].mesh];
+      // A ray that comes to a back side without having gone in, as from an eye within a body, was in it.
+      const bool from_within = path.inside == nullptr && at.inside && bsdf.transmits();
+      absorb(path, from_within ? &bsdf.absorption() : path.inside, ahead.mesh.t);
+      begin_vertex(at, ray, path, bsdf, 1.0F, color ? &*color : nullptr);
+      if (!at.inside && bsdf.is_cloudy()) {
+        const Pair choice = path.samples.pair(dimension(depth, entry_dimension));
+        enter_cloudy_inside(ray, hits_[i], at.beyond, choice.u,
+                            path.samples.pair(dimension(depth, scatter_dimension)), depth);
+      }
     }
   }
 }
@@ -275,11 +294,13 @@ Color PathTracer::light_met(const Ray& ray, const Path& path, std::uint32_t from
   return light;
 }
 
-void PathTracer::begin_vertex(const SurfacePoint& at, const Ray& ray, const Path& path, const Brdf& brdf,
+void PathTracer::begin_vertex(const SurfacePoint& at, const Ray& ray, const Path& path, const Bsdf& brdf,
                               float share, const Color* base_color) {
   Vertex& v = vertices_.emplace_back();
-  v.origin = at.origin;
-  v.n = at.normal;
+  const bool turned = at.inside && brdf.transmits();
+  v.origin = turned ? at.beyond : at.origin;
+  v.below = turned ? at.origin : at.beyond;
+  v.n = turned ? Vec3(-at.normal) : at.normal;
   make_frame(v.n, v.t, v.b);
   v.brdf = &brdf;
   const float least_alpha = path.least_pdf < 1.0F ? 0.5F * std::sqrt(1.0F - path.least_pdf) : 0.0F;
@@ -289,6 +310,9 @@ void PathTracer::begin_vertex(const SurfacePoint& at, const Ray& ray, const Path
   v.least_pdf = path.least_pdf;
   v.lane = path.lane;
   v.samples = path.samples;
+  v.inside = path.inside;
+  v.clear = path.clear;
+  v.compressed = path.compressed;
 }
 
 bool PathTracer::all_lights_at(std::uint32_t depth) const {
@@ -399,7 +423,7 @@ void PathTracer::trace_shadows(Coherence coherence) {
   }
   geometry_.caster().occluded(shadow_rays_, shadow_distances_, coherence, blocked_);
   for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
-    if (blocked_[i] == 0) radiance_[shadow_lanes_[i]] += shadow_light_[i];
+    if (blocked_[i] == 0) add_light(shadow_lanes_[i], shadow_light_[i]);
   }
   shadow_rays_.clear();
   shadow_distances_.clear();
@@ -407,22 +431,38 @@ void PathTracer::trace_shadows(Coherence coherence) {
   shadow_lanes_.clear();
 }
 
-/// The next rays, by the BRDF; dim paths end by Russian roulette.
+/// The next rays, by the BSDF; dim paths end by Russian roulette.
 void PathTracer::scatter(std::uint32_t depth) {
   for (const Vertex& v : vertices_) {
-    const Brdf::Sample s = v.brdf->sample(v.view, v.samples.pair(dimension(depth, scatter_dimension)));
+    const auto pair = [&](std::uint32_t name) { return v.samples.pair(dimension(depth, name)); };
+    const bool layers = v.brdf->has_layers();
+    const Bsdf::Sample s =
+        v.brdf->sample(v.view, pair(scatter_dimension), layers ? pair(lobe_dimension) : Pair{},
+                       layers ? pair(clear_dimension) : Pair{});
     if (s.value.pdf <= 0.0F) continue;
     Color throughput = v.throughput * s.value.f_cos / s.value.pdf;
-    const float bright = throughput.maxCoeff();
+    const Vec3& wi = s.direction;
+    const float compressed =
+        layers && !v.view.emerging ? v.compressed / v.brdf->index_squared(v.view.wo, wi) : v.compressed;
+    const float bright = throughput.maxCoeff() / compressed;
     if (bright <= 0.0F) continue;
     if (depth >= roulette_depth && bright < 1.0F) {
-      if (v.samples.pair(dimension(depth, choice_dimension)).u >= bright) continue;
+      if (pair(choice_dimension).u >= bright) continue;
       throughput /= bright;
     }
-    const Vec3& wi = s.direction;
-    rays_.push_back({v.origin, wi.x() * v.t + wi.y() * v.b + wi.z() * v.n});
-    paths_.push_back(
-        {throughput, s.value.pdf, wi.z() * inv_pi, std::min(v.least_pdf, s.value.pdf), v.lane, v.samples});
+    const bool below = wi.z() < 0.0F;
+    rays_.push_back({below ? v.below : v.origin, wi.x() * v.t + wi.y() * v.b + wi.z() * v.n});
+    Path& path = paths_.emplace_back();
+    path.throughput = throughput;
+    path.bsdf_pdf = below ? unseen : s.value.pdf;
+    path.sky_pdf = wi.z() * inv_pi;
+    path.least_pdf = std::min(v.least_pdf, s.value.pdf);
+    path.lane = v.lane;
+    path.samples = v.samples;
+    path.inside = v.inside;
+    if (v.brdf->transmits()) path.inside = below ? &v.brdf->absorption() : nullptr;
+    path.clear = s.clear ? std::min(v.clear + 1, clear_bounces_) : v.clear;
+    path.compressed = compressed;
   }
 }
 

@@ -5,15 +5,17 @@
 #include <vector>
 
 #include "render/camera.h"
-#include "render/path/brdf.h"
+#include "render/path/bsdf.h"
 #include "render/path/filter.h"
 #include "render/path/lens.h"
 #include "render/path/light.h"
+#include "render/path/random_walk.h"
 #include "render/path/sampler.h"
 #include "render/path/scene_geometry.h"
 #include "render/path/sky_sampler.h"
 #include "render/path/sun.h"
 #include "render/render_scene.h"
+#include "render/settings.h"
 
 namespace lagomorph::render::path {
 
@@ -23,7 +25,7 @@ class TileStatistics;
 struct Shading {
   explicit Shading(const RenderScene&);
 
-  std::vector<Brdf> brdfs;  // a mesh each, then the ground's
+  std::vector<Bsdf> brdfs;  // a mesh each, then the ground's
   std::vector<RectangleLight> lights;
   std::vector<float> pick;  // probability of each light where one is picked
   std::vector<SunLight> suns;
@@ -36,7 +38,7 @@ struct Shading {
   /// What the camera sees along a direction that meets nothing.
   Color open_view(const Vec3& direction) const;
 
-  const Brdf& ground_brdf() const { return brdfs.back(); }
+  const Bsdf& ground_brdf() const { return brdfs.back(); }
 };
 
 /// A rectangle of pixels [x0, x1) x [y0, y1).
@@ -51,10 +53,14 @@ struct Tile {
 /// scattered ray that finds them (of suns likewise), weighed by the power heuristic [Veach 1997]. From the
 /// fourth surface on, dim paths are ended by Russian roulette. The lights are no obstacle; one that is
 /// visible is opaque to the camera.
+///
+/// Clear insides: shadow rays do not pass them, light behind is found by the scattered ray alone. From
+/// inside, what the surface lets out is estimated like any other light. Cloudy insides: a path that enters
+/// one goes on where its random walk leaves the body, as if it had arrived there.
 class PathTracer {
 public:
   PathTracer(const SceneGeometry&, const Shading&, const Camera&, const PixelFilter&, int samples,
-             int bounces);
+             const PathSettings&);
 
   /// Mean radiance of the tile's pixels into `color`, 3 floats a pixel of the whole picture. Sums go in the
   /// order of the samples. `statistics`, of the same tile, takes every sample; nullptr: none is kept.
@@ -74,16 +80,23 @@ private:
     float least_pdf;  // bsdf_pdf's least along the path
     std::uint32_t lane;
     PathSamples samples;
+    const Absorption* inside = nullptr;  // what the ray is in, where that is told
+    std::uint32_t clear = 0;             // bounces that do not count
+    float compressed = 1.0F;             // of the throughput, by indices of refraction
   };
   struct Vertex {
     Vec3 origin;
     Vec3 t, b, n;  // shading frame
-    const Brdf* brdf;
-    Brdf::View view;  // in that frame
+    const Bsdf* brdf;
+    Bsdf::View view;  // in that frame
     Color throughput;
     float least_pdf;
     std::uint32_t lane;
     PathSamples samples;
+    Vec3 below;  // origin of rays below the frame
+    const Absorption* inside = nullptr;
+    std::uint32_t clear = 0;
+    float compressed = 1.0F;
   };
 
   /// What a ray meets.
@@ -102,8 +115,13 @@ private:
   Ahead look(const Ray&, const MeshHit&) const;
   Color seen_by_camera(const Ray&, Ahead&) const;
   Color light_met(const Ray&, const Path&, std::uint32_t from, const Ahead&) const;
-  void begin_vertex(const SurfacePoint&, const Ray&, const Path&, const Brdf&, float share,
+  void begin_vertex(const SurfacePoint&, const Ray&, const Path&, const Bsdf&, float share,
                     const Color* base_color = nullptr);
+  static void absorb(Path&, const Absorption*, double distance);
+  void enter_cloudy_inside(const Ray&, const MeshHit&, const Vec3& from, float choice, Pair way,
+                           std::uint32_t depth);
+  void leave_cloudy_insides();
+  void add_light(std::uint32_t lane, const Color&);
   bool all_lights_at(std::uint32_t depth) const;
   float pick_probability(std::size_t light, std::uint32_t depth) const;
   void gather_lights(std::uint32_t depth);
@@ -120,12 +138,16 @@ private:
   const PixelFilter& filter_;
   Aperture aperture_;
   bool moving_;  // rays have times
-  std::uint32_t samples_, bounces_;
+  std::uint32_t samples_, bounces_, clear_bounces_;
+  float clamp_;  // of indirect light; 0: none
 
   std::vector<Ray> rays_;  // of paths_
   std::vector<Path> paths_;
   std::vector<MeshHit> hits_;
   std::vector<Vertex> vertices_;
+  RandomWalk walks_;
+  std::vector<Vertex> entered_;         // where each walk began
+  std::vector<std::uint8_t> indirect_;  // by lane: light now comes over two counted surfaces or more
   std::vector<Ray> shadow_rays_;
   std::vector<float> shadow_distances_;
   std::vector<Color> shadow_light_;  // what arrives when nothing is in the way

@@ -39,6 +39,7 @@ SceneGeometry::SceneGeometry(const RenderScene& scene) : ground_(scene.ground), 
                        VertexNormals(m.triangles, m.positions.size()),
                        m.smooth,
                        true,
+                       m.material.transmission > 0.0F || m.material.subsurface > 0.0F,
                        m.colors,
                        {},
                        {}});
@@ -126,6 +127,7 @@ SurfacePoint SceneGeometry::arrive(const Ray& ray, const MeshHit& hit, const Tri
 
   Vec3 shading = flat;
   Vec3 start = p;
+  Vec3 start_beyond = p;
   if (m.smooth) {
     const Vec3 n[3] = {side * normal(m, triangle[0], ray.time), side * normal(m, triangle[1], ray.time),
                        side * normal(m, triangle[2], ray.time)};
@@ -136,12 +138,20 @@ SurfacePoint SceneGeometry::arrive(const Ray& ray, const MeshHit& hit, const Tri
     if (length > 0.0F && sum.dot(flat) > 0.0F) {
       shading = sum / length;
       start = smooth_point(p, x, n, weight);
+      if (m.has_inside) {
+        const Vec3 back[3] = {-n[0], -n[1], -n[2]};
+        start_beyond = smooth_point(p, x, back, weight);
+      }
     }
   }
   Vec3 origin = offset_along(start, flat);
   // A body that stands on the ground is not lit through it.
-  if (ground_.enabled && p.y() >= ground_.height) origin.y() = std::max(origin.y(), ground_.height);
-  return {origin, facing(shading, wo)};
+  Vec3 beyond = offset_along(start_beyond, -flat);
+  if (ground_.enabled && p.y() >= ground_.height) {
+    origin.y() = std::max(origin.y(), ground_.height);
+    beyond.y() = std::max(beyond.y(), ground_.height);
+  }
+  return {origin, facing(shading, wo), beyond, side < 0.0F};
 }
 
 std::optional<Color> SceneGeometry::color_at(const MeshHit& hit, const TriangleHit& at) const {

@@ -17,6 +17,8 @@ struct SurfacePoint {
   Vec3 origin;  // of rays that go on: off the surface on the side of the arrival, so that they do not meet it
                 // again
   Vec3 normal;  // unit shading normal, on the side of the arrival
+  Vec3 beyond = Vec3::Zero();  // of rays that go through, where the mesh's material lets any
+  bool inside = false;         // the arrival is from the back of its triangle
 };
 
 /// The meshes and the ground as a ray sees them: what the hierarchy's answers mean in space.
@@ -61,7 +63,8 @@ private:
     VertexNormals topology;
     bool smooth;
     bool moved;
-    std::vector<Color> colors;  // a vertex; or none
+    bool has_inside;                    // rays go through
+    std::vector<Color> colors;          // a vertex; or none
     std::vector<Vec3> opening;          // positions at time 0; empty when it stands still
     std::vector<Vec3> opening_normals;  // likewise
   };

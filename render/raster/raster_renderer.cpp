@@ -13,6 +13,7 @@
 #include "render/raster/gl_objects.h"
 #include "render/raster/light_maps.h"
 #include "render/raster/mesh_buffers.h"
+#include "render/raster/optics_stand_in.h"
 #include "render/raster/programs.h"
 #include "render/raster/shaders/shaders.h"
 #include "render/raster/stand_ins.h"
@@ -109,7 +110,8 @@ private:
   bool lights_are_stale_ = true;
 };
 
-SurfaceBlock surface_block(const Material& m) {
+SurfaceBlock surface_block(const Material& material) {
+  const Material m = optics_stand_in(material);
   const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
   return {vec4(m.base_color, 0.0F), Vec4(m.roughness, m.metallic, r * r, 0.0F)};
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -150,6 +151,32 @@ TEST_F(RenderCommand, SeveralShareTheFrames) {
   }
   expect(0, run("whole", {"--set", "time.frames=12"}));
   expect_same_run(at("whole"), at("r"));
+}
+
+TEST_F(RenderCommand, CutLightIsToldInALineAndInTheRecord) {
+  const Arguments small = {"--set",           "render.width=16", "--set",
+                           "render.height=9", "--set",           "render.samples=1"};
+  expect(0, simulate("r", {"--frames", "0"}));
+  const auto drawn = [&](const Arguments& more) {
+    Arguments loud =
+        render("r", Arguments{"--backend", "path", "-o", at("p").string(), "--force"} + small + more);
+    loud.erase(std::find(loud.begin(), loud.end(), "--quiet"));
+    const Ended ended = run_program(loud);
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return ended.err;
+  };
+  const auto record = [&] { return nlohmann::json::parse(read_all(at("p") / "records/frame_0000.json")); };
+  EXPECT_EQ(drawn({}).find("clamp"), std::string::npos);
+  EXPECT_FALSE(record().contains("clamp"));
+  EXPECT_NE(drawn({"--set", "render.path.clamp=3"}).find("path: render.path.clamp = 3: "), std::string::npos);
+  EXPECT_EQ(record().at("clamp"), 3.0);
+}
+
+TEST_F(RenderCommand, TheRasterizerSaysWhatItDrawsInsteadOfAClearInside) {
+  Arguments loud = run("r", {"--frames", "0", "--set", "body.0.look.transmission=1"});
+  loud.erase(std::find(loud.begin(), loud.end(), "--quiet"));
+  const std::string said = run_program(loud).err;
+  EXPECT_NE(said.find("transmission is an opaque base of absorption_color"), std::string::npos) << said;
 }
 
 }  // namespace

@@ -1,0 +1,74 @@
+#include "render/raster/optics_stand_in.h"
+
+#include <gtest/gtest.h>
+
+#include "render/renderer.h"
+
+namespace lagomorph::render::raster {
+namespace {
+
+TEST(OpticsStandIn, APlainMaterialIsItself) {
+  const Material m{Color(0.1F, 0.3F, 0.34F), 0.4F, 0.2F, 1.4F};
+  const Material drawn = optics_stand_in(m);
+  EXPECT_EQ(drawn.base_color.matrix(), m.base_color.matrix());
+  EXPECT_EQ(drawn.roughness, m.roughness);
+  EXPECT_EQ(drawn.metallic, m.metallic);
+  RenderScene scene;
+  scene.meshes.emplace_back().material = m;
+  EXPECT_TRUE(optics_remarks(scene).empty());
+}
+
+TEST(OpticsStandIn, InsidesShowTheirColours) {
+  Material m;
+  m.absorption_color = Color(0.9F, 0.1F, 0.2F);
+  m.subsurface_color = Color(0.2F, 0.7F, 0.4F);
+  m.transmission = 1.0F;
+  EXPECT_LT((optics_stand_in(m).base_color - m.absorption_color).abs().maxCoeff(), 1e-6F);
+  m.transmission = 0.0F;
+  m.subsurface = 0.5F;
+  const Color half = 0.5F * (m.base_color + m.subsurface_color);
+  EXPECT_LT((optics_stand_in(m).base_color - half).abs().maxCoeff(), 1e-6F);
+  m.metallic = 1.0F;
+  EXPECT_EQ(optics_stand_in(m).base_color.matrix(), m.base_color.matrix());
+}
+
+TEST(OpticsStandIn, ACoatSharpens) {
+  Material m;
+  m.roughness = 0.8F;
+  m.coat = 1.0F;
+  m.coat_roughness = 0.1F;
+  EXPECT_FLOAT_EQ(optics_stand_in(m).roughness, 0.1F);
+  m.roughness = 0.05F;
+  EXPECT_FLOAT_EQ(optics_stand_in(m).roughness, 0.05F);
+}
+
+TEST(RendererRemarks, SayWhatTheRasterizerDrawsInstead) {
+  RenderScene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  mesh.name = "jelly";
+  mesh.material.transmission = 0.7F;
+  mesh.material.sheen = 0.1F;
+  RenderSettings settings;
+  const std::vector<std::string> told = renderer_remarks(settings, {}, scene);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0],
+            "raster: look of 'jelly': transmission is an opaque base of absorption_color; sheen is left out");
+  settings.backend = "path";
+  EXPECT_TRUE(renderer_remarks(settings, {}, scene).empty());
+}
+
+TEST(RendererRemarks, SayThatLightIsCut) {
+  RenderSettings settings;
+  settings.backend = "path";
+  settings.path.clamp = 2.5F;
+  const std::vector<std::string> told = renderer_remarks(settings, {}, {});
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0],
+            "path: render.path.clamp = 2.5: indirect light above it is cut, so that pictures are "
+            "somewhat too dark");
+  settings.path.clamp = 0.0F;
+  EXPECT_TRUE(renderer_remarks(settings, {}, {}).empty());
+}
+
+}  // namespace
+}  // namespace lagomorph::render::raster
