@@ -34,7 +34,8 @@ public:
   StepReport step(const Model& model, State& state, double h) override {
     const double end = (state.frame + 1) / fps_;
     double left = 1.0 - h / (end - state.t);
-    if (left <= kRoundingOfTime) left = 0.0;
+    // A shape that is thrown together has no load that could be taken from it bit by bit.
+    if (left <= kRoundingOfTime || !starts_at_rest(model, state)) left = 0.0;
     const Held& held = model.held(end);
     IncrementalPotential phi;
     phi.pins = &held.pins();
@@ -63,6 +64,11 @@ public:
   }
 
 private:
+  static bool starts_at_rest(const Model& model, const State& state) {
+    return state.frame > 0 ||
+           model.initial_state().q == Eigen::Map<const VecX>(model.mesh().X.data(), state.q.size());
+  }
+
   /// The pins' forces at the end, and the work along the way to there by the trapezoidal rule. Loads that
   /// change during a frame do so in proportion to its time; before the first frame there are none.
   void account(const Model& model, const Held& held, const State& state, const VecX& q1, double left,

@@ -7,6 +7,7 @@
 
 #include "sim/io/field_writers.h"
 #include "sim/kinematics.h"
+#include "sim/materials/table.h"
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
@@ -88,7 +89,10 @@ TEST(Fields, EnergyDensityAddsUpToTheEnergyOfEachBody) {
 TEST(Fields, TellTheMaterialAtRest) {
   const auto values = [](const std::string& model, const auto& change) {
     BodyInput body = cube_body(1, model);
-    body.settings.material = {.model = model, .young = 1e5, .poisson = 0.3};
+    body.settings.material = {};
+    body.settings.material.model = model;
+    body.settings.material.young = 1e5;
+    body.settings.material.poisson = 0.3;
     change(body.settings);
     const Model of({body}, Vec3::Zero());
     std::vector<double> all;
@@ -113,7 +117,8 @@ TEST(Fields, TellTheMaterialAtRest) {
   EXPECT_NEAR(values("arap", as_it_is)[0], 2 * mu, 1e-7);
   // Fibres add their stiffness to both sums.
   const std::vector<double> with_fibres = values("linear", [](BodySettings& s) {
-    s.material.fibre = FibreSettings{.direction = Vec3(1, 2, 3), .stiffness = 3e4, .compression = true};
+    s.material.fibre =
+        FibreSettings{.direction = Vec3(1, 2, 3), .stiffness = 3e4, .exponent = 0.0, .compression = true};
   });
   const double lambda = 1e5 * 0.3 / (1.3 * 0.4);
   const double C_iijj = 9 * lambda + 6 * mu + 3e4, C_ijij = 3 * lambda + 12 * mu + 3e4;

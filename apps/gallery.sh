@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Draws the stills of README.md's gallery into assets/gallery, one frame of each scene: ./apps/gallery.sh [NAME...]
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+# shellcheck source=apps/setup.sh
+. "$root/apps/setup.sh"
+
+install_packages build run
+build release lagomorph
+wanted=" $* "
+while read -r name frame back_end samples; do
+  if [ $# -gt 0 ] && [[ $wanted != *" $name "* ]]; then continue; fi
+  say "$name, frame $frame"
+  run=$root/out/gallery/$name
+  "$root/out/build/release/lagomorph" run "$root/assets/scenes/$name.toml" --out "$run" --frames "$frame" --force \
+    --set "render.backend=$back_end" --set "render.samples=$samples" --set render.width=640 --set render.height=360 \
+    --set render.png_compression=9
+  cp "$run/frames/frame_$(printf %04d "$frame").png" "$root/assets/gallery/$name.png"
+done <<'SCENES'
+jelly 12 path 512
+focus 14 path 256
+motion_blur 5 path 256
+stress 66 raster 1
+twist 60 raster 1
+two_materials 30 raster 1
+SCENES
