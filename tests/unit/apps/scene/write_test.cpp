@@ -119,6 +119,7 @@ private:
 void settle(sim::MaterialSettings& m, RandomFill& random) {
   m.young = m.poisson = m.mu = m.lambda = m.C = m.D = m.C10 = m.C01 = m.bulk = std::nullopt;
   m.data.clear();
+  if (m.model != "neo_hookean") m.moduli = "lecture";
   if (m.model == "stress_strain") {
     m.data = {{-0.1, -2e3}, {0.25, 1e3 / 3.0}};
     m.poisson = 1.0 / 3.0;
@@ -159,6 +160,7 @@ void settle(SceneDesc& s, RandomFill& random) {
       for (std::size_t i = 0; i < p.key.size(); ++i) p.key[i].time = 0.1 * static_cast<double>(i);
       if (!p.key.empty()) p.path.clear();
       if (!p.path.empty() && !p.path_fps) p.path_fps = 24.0;
+      if (p.path.empty()) p.path_fps.reset();
     }
     for (sim::SpringSettings& spring : b.physics.spring) spring.vertices.push_back(3);
   }
