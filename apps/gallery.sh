@@ -21,6 +21,5 @@ jelly 12 path 512
 focus 14 path 256
 motion_blur 5 path 256
 stress 66 raster 1
-twist 60 raster 1
 two_materials 30 raster 1
 SCENES
