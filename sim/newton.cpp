@@ -29,6 +29,7 @@ constexpr double kArmijo = 1e-4;  // part of the predicted decrease that a step 
 constexpr double kLeastClamping = 1.0 / 64.0;
 /// Of the mass that is added to a singular Hessian, over the largest entries of both.
 constexpr double kLeastShift = 1e-14, kLargestShift = 1e-2;
+constexpr double kFarthest = 1e4;       // of a static equilibrium, over the bodies' coordinates
 constexpr int kMaxBacktracks = 40;      // halvings of a step while the energy tells steps apart
 constexpr int kMaxBlindBacktracks = 8;  // and where only the residual does
 constexpr int kMaxCarries = 8;          // pieces in which the held coordinates may reach their places
@@ -219,6 +220,7 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
   if (held != pins_) linear_solver_.analyze(model.pattern(), *held);
   pins_ = held;
   NewtonReport report;
+  const double from = q.cwiseAbs().maxCoeff();
   Point point = evaluate(model, phi, std::move(q));
   const auto end = [&](StepStatus status) {
     report.status = status;
@@ -262,6 +264,9 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
     const double norm_before = point.norm;
     const double step = search_line(model, phi, direction, point);
     if (step == 0.0) return end_stagnated();
+    // Nothing holds what falls without end.
+    const double farthest = kFarthest * (from + model.mesh().X.cwiseAbs().maxCoeff());
+    if (phi.m == 0.0 && point.q.cwiseAbs().maxCoeff() > farthest) return end(StepStatus::not_converged);
     report.iterates.push_back({point.residual(), point.value, step, used_clamping_});
     const bool crawls = point.norm > 0.5 * norm_before && point.norm > settings_.tolerance * point.reference;
     if (crawls && point.norm <= kNearRoundingFloor * rounding_floor(point.q))
