@@ -126,7 +126,7 @@ std::vector<Animation> make_animations(PreviewMaterial& m, const Shown& shown, c
     Made result = attempt(reel, pattern, webp(), shown.size);
     if (result == Made::no) result = attempt(reel, pattern, mp4(shown.size), shown.size);
     if (result == Made::no_ffmpeg) {
-      m.remarks.push_back("no animation: ffmpeg is not on the PATH");
+      m.remarks.emplace_back("no animation: ffmpeg is not on the PATH");
     } else {
       if (result == Made::no && !stop()) m.remarks.push_back("no animation.webp or .mp4: ffmpeg: " + why);
       const Reel short_reel = reel_of(m, shown, most_gif_frames, 15);
