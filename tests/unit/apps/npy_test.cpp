@@ -81,8 +81,10 @@ TEST(Npy, ReadsOtherSpacingOrderAndFormats) {
   EXPECT_EQ(read_npy(with_header("{'shape':(2,),'fortran_order':False,'descr':'<f8'}\n", values), "a").shape,
             Shape{2});
   const std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (2,), }\n";
-  const std::string second = std::string("\x93NUMPY\x02\x00", 8) + static_cast<char>(header.size()) +
-                             std::string(3, '\0') + header + values;
+  std::string second("\x93NUMPY\x02\x00", 8);
+  second += static_cast<char>(header.size());
+  second.append(3, '\0');
+  second += header + values;
   EXPECT_EQ(read_npy(second, "a").shape, Shape{2});
 }
 
