@@ -7,11 +7,9 @@
 #include "apps/file_io.h"
 #include "apps/hash.h"
 #include "apps/npy.h"
-#include "apps/overlay/caption.h"
-#include "apps/overlay/color_bar.h"
+#include "apps/pipeline/finish_picture.h"
 #include "apps/pipeline/stopwatch.h"
 #include "apps/run/state_file.h"
-#include "render/color.h"
 #include "render/png.h"
 
 namespace lagomorph::apps {
@@ -24,34 +22,16 @@ std::string encode_channel(const render::Channel& channel) {
   return npy_bytes(channel.values, std::span(shape).first(channel.components == 1 ? 2 : 3));
 }
 
-CaptionValues caption_values(const SceneDesc& scene, int frame, const StateRecord& state) {
-  return {.name = scene.name,
-          .frame = frame,
-          .frames = scene.time.frames,
-          .time = state.time,
-          .kinetic = state.energy.kinetic,
-          .elastic = state.energy.elastic,
-          .gravitational = state.energy.gravitational,
-          .total = state.energy.total(),
-          .iterations = state.report.newton_iterations,
-          .min_J = state.min_J};
-}
-
 }  // namespace
 
 FrameWriter::FrameWriter(const RunPaths& paths, const Identity& identity, const SceneDesc& scene,
                          const std::map<int, FrameRecord>& records, const SurfaceFields& fields, bool draws)
-    : paths_(paths),
-      identity_(identity),
-      scene_(scene),
-      settings_(scene.render),
-      records_(records),
-      fields_(fields) {
+    : paths_(paths), identity_(identity), scene_(scene), records_(records), fields_(fields) {
   make_folder(paths.states());
   make_folder(paths.records());
   if (!draws) return;
   make_folder(paths.pictures());
-  for (const std::string& channel : settings_.channels) make_folder(paths.channel(channel));
+  for (const std::string& channel : scene_.render.channels) make_folder(paths.channel(channel));
 }
 
 void FrameWriter::write(const DrawnFrame& frame) const {
@@ -81,21 +61,19 @@ StateRecord FrameWriter::write_state(const sim::State& state, StateRecord record
 
 PictureRecord FrameWriter::write_picture(int frame, const StateRecord& state,
                                          const render::Image& image) const {
-  render::Picture picture = render::tone_map(image, settings_.tone_curve, settings_.exposure);
-  draw_color_bars(picture, fields_.bars());
-  draw_caption(picture, caption_text(scene_.caption.text, caption_values(scene_, frame, state)),
-               scene_.caption.place);
-  const std::string png = render::encode_png(picture, settings_.png_compression);
+  const std::string png =
+      render::encode_png(finish_picture(image, scene_, fields_, frame, state), scene_.render.png_compression);
   write_file(paths_.picture(frame), png);
   PictureRecord record;
   record.sha256 = sha256(png);
   record.made_by = identity_.picture_hash();
-  if (settings_.backend == "path") record.clamp = static_cast<double>(settings_.path.clamp);
+  if (scene_.render.backend == "path") record.clamp = static_cast<double>(scene_.render.path.clamp);
   record.ranges = fields_.ranges();
-  for (const std::string& name : settings_.channels) {
+  for (const std::string& name : scene_.render.channels) {
     const render::Channel* channel = image.find(name);
     if (channel == nullptr) {
-      throw Error(ExitStatus::machine, "the renderer '" + settings_.backend + "' gave no channel " + name);
+      throw Error(ExitStatus::machine,
+                  "the renderer '" + scene_.render.backend + "' gave no channel " + name);
     }
     const std::string bytes = encode_channel(*channel);
     write_file(paths_.channel(name, frame), bytes);

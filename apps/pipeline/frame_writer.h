@@ -28,7 +28,6 @@ private:
   const RunPaths& paths_;
   const Identity& identity_;
   const SceneDesc& scene_;
-  const render::RenderSettings& settings_;
   const std::map<int, FrameRecord>& records_;
   const SurfaceFields& fields_;
 };
