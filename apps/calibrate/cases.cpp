@@ -11,6 +11,7 @@
 #include "apps/error.h"
 #include "apps/file_io.h"
 #include "apps/pipeline/build_scene.h"
+#include "apps/pipeline/finish_picture.h"
 #include "apps/pipeline/stop.h"
 #include "apps/pipeline/surface_fields.h"
 #include "apps/run/plan.h"
@@ -79,10 +80,8 @@ public:
     const auto renderer = render::make_renderer(settings, threads);
     renderer->set_scene(scene);
     const double time = frame / scene_.time.fps;
-    render::Picture picture =
-        render::tone_map(renderer->render(camera_, {frame, time}), settings.tone_curve, settings.exposure);
-    draw_color_bars(picture, fields_.bars());
-    return picture;
+    return finish_picture(renderer->render(camera_, {frame, time}), scene_, fields_, frame,
+                          states_.records().at(frame));
   }
 
 private:
@@ -98,8 +97,7 @@ private:
   }
 
   sim::State state(int frame) const {
-    const std::filesystem::path file = paths_.state(frame);
-    return decode_state(read_file(file), file.string(), frame, scene_.time.fps, model_.mesh().vertex_count());
+    return read_state(paths_.state(frame), frame, scene_.time.fps, model_.mesh().vertex_count());
   }
 
   RunPaths paths_;

@@ -98,9 +98,7 @@ ExitStatus export_command(const Options& options) {
       exported,
       frames,
       [&](int frame) {
-        const fs::path file = run.state(frame);
-        return decode_state(read_file(file), file.string(), frame, scene.time.fps,
-                            model.mesh().vertex_count());
+        return read_state(run.state(frame), frame, scene.time.fps, model.mesh().vertex_count());
       },
       stop_asked,
       [&] { progress.frame_done(); },

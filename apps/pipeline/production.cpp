@@ -106,9 +106,7 @@ bool find_ranges(const Production& p, const sim::Model& model, SurfaceFields& fi
   progress.begin(static_cast<int>(frames.size()));
   for (const auto& [frame, record] : frames) {
     if (stop_asked()) return false;
-    const fs::path file = p.paths.state(frame);
-    fields.see(
-        decode_state(read_file(file), file.string(), frame, p.scene.time.fps, model.mesh().vertex_count()).q);
+    fields.see(read_state(p.paths.state(frame), frame, p.scene.time.fps, model.mesh().vertex_count()).q);
     progress.frame_done();
   }
   progress.end();

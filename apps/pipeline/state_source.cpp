@@ -16,12 +16,10 @@ StateSource::StateSource(const SceneDesc& scene, const sim::Model& model, sim::I
     : scene_(scene), model_(model), integrator_(integrator), paths_(paths), log_newton_(log_newton) {}
 
 sim::State StateSource::read(int frame) const {
-  const std::filesystem::path file = paths_.state(frame);
   const std::optional<FrameRecord> record = read_record(paths_, frame);
   const std::vector<double> times =
       record && record->state ? record->state->history_times : std::vector<double>();
-  return decode_state(read_file(file), file.string(), frame, scene_.time.fps, model_.mesh().vertex_count(),
-                      times);
+  return read_state(paths_.state(frame), frame, scene_.time.fps, model_.mesh().vertex_count(), times);
 }
 
 bool StateSource::simulate(int frame, sim::State& state, StateRecord& record) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/error.h"
+#include "apps/file_io.h"
 #include "apps/npy.h"
 
 namespace lagomorph::apps {
@@ -65,6 +66,11 @@ sim::State decode_state(std::string_view bytes, const std::string& origin, int f
     state.history.push_back(std::move(older));
   }
   return state;
+}
+
+sim::State read_state(const std::filesystem::path& file, int frame, double fps, int vertices,
+                      std::span<const double> history_times) {
+  return decode_state(read_file(file), file.string(), frame, fps, vertices, history_times);
 }
 
 std::size_t state_file_size(int vertices, int levels) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,10 @@ std::string encode_state(const sim::State&);
 /// `vertices` vertices.
 sim::State decode_state(std::string_view bytes, const std::string& origin, int frame, double fps,
                         int vertices, std::span<const double> history_times = {});
+
+/// The same of a file.
+sim::State read_state(const std::filesystem::path&, int frame, double fps, int vertices,
+                      std::span<const double> history_times = {});
 
 /// Size of such a file. [bytes]
 std::size_t state_file_size(int vertices, int levels);
