@@ -112,12 +112,18 @@ public:
         states.P[tet] += part * materials_[j].dpsi_dF(F);
         states.psi[tet] += part * materials_[j].psi(F);
       }
+    });
+  }
+
+  void add_moduli(ElementModuli& moduli) const override {
+    for_each_element(kCheap, [&](std::size_t j) {
+      const auto tet = static_cast<std::size_t>(tets_[j]);
       const Mat9 C = materials_[j].d2psi_dF2(Mat3::Identity());
       for (int i = 0; i < 3; ++i) {
         for (int k = 0; k < 3; ++k) {
           const int ik = 3 * i + k;
-          states.C_iijj[tet] += C(4 * i, 4 * k);
-          states.C_ijij[tet] += 0.5 * (C(ik, ik) + C(ik, 3 * k + i));
+          moduli.C_iijj[tet] += C(4 * i, 4 * k);
+          moduli.C_ijij[tet] += 0.5 * (C(ik, ik) + C(ik, 3 * k + i));
         }
       }
     });

@@ -30,6 +30,12 @@ void add_mean(const ElementRule<N, P>& rule, const VecX& q, Shape& shape) {
   shape.volumes.push_back(volume);
 }
 
+void for_stress_sources(const Model& model, const auto& visit) {
+  for (const auto& term : model.energies()) {
+    if (const auto* source = dynamic_cast<const StressSource*>(term.get())) visit(*source);
+  }
+}
+
 Shape shape_of(const Model& model, const VecX& q) {
   const TetMesh& mesh = model.mesh();
   Shape shape{model, q, {}, {}, {}};
@@ -37,12 +43,7 @@ Shape shape_of(const Model& model, const VecX& q) {
     mesh.is_quadratic(j) ? add_mean(Tet10::rule(mesh, j), q, shape) : add_mean(Tet4::rule(mesh, j), q, shape);
   shape.states.P.assign(mesh.tets.size(), Mat3::Zero());
   shape.states.psi.assign(mesh.tets.size(), 0.0);
-  shape.states.C_iijj.assign(mesh.tets.size(), 0.0);
-  shape.states.C_ijij.assign(mesh.tets.size(), 0.0);
-  for (const auto& term : model.energies()) {
-    if (const auto* source = dynamic_cast<const StressSource*>(term.get()))
-      source->add_states(q, shape.states);
-  }
+  for_stress_sources(model, [&](const StressSource& source) { source.add_states(q, shape.states); });
   return shape;
 }
 
@@ -64,24 +65,21 @@ Values determinants(const Shape& s) {
 }
 Values energies(const Shape& s) { return s.states.psi; }
 
-struct Moduli {
-  double K, mu;  // of bulk and shear [Pa]
-};
-/// Of the isotropic mean of a tet's material at rest.
-Moduli moduli(const Shape& s, std::size_t j) {
-  return {s.states.C_iijj[j] / 9.0, (s.states.C_ijij[j] - s.states.C_iijj[j] / 3.0) / 10.0};
+/// Of the isotropic mean of each tet's material at rest, a value of its moduli of bulk and shear.
+template <typename Value>
+Values by_moduli(const Shape& s, const Value& value) {
+  ElementModuli moduli{Values(s.F.size()), Values(s.F.size())};
+  for_stress_sources(s.model, [&](const StressSource& source) { source.add_moduli(moduli); });
+  return by_tet(s, [&](std::size_t j) {
+    const double K = moduli.C_iijj[j] / 9.0;
+    return value(K, (moduli.C_ijij[j] - moduli.C_iijj[j] / 3.0) / 10.0);
+  });
 }
 Values youngs(const Shape& s) {
-  return by_tet(s, [&](std::size_t j) {
-    const auto [K, mu] = moduli(s, j);
-    return 9.0 * K * mu / (3.0 * K + mu);
-  });
+  return by_moduli(s, [](double K, double mu) { return 9.0 * K * mu / (3.0 * K + mu); });
 }
 Values poissons(const Shape& s) {
-  return by_tet(s, [&](std::size_t j) {
-    const auto [K, mu] = moduli(s, j);
-    return (3.0 * K - 2.0 * mu) / (2.0 * (3.0 * K + mu));
-  });
+  return by_moduli(s, [](double K, double mu) { return (3.0 * K - 2.0 * mu) / (2.0 * (3.0 * K + mu)); });
 }
 /// Of the centroid.
 Values displacements(const Shape& s) {
@@ -92,23 +90,23 @@ Values displacements(const Shape& s) {
     return 0.25 * sum.norm();
   });
 }
-Values densities(const Shape& s) {
+/// A value for each tet, by its body and its number in it.
+template <typename Value>
+Values by_body(const Shape& s, const Value& value) {
   Values values(s.F.size());
   const std::vector<Body>& all = s.model.mesh().bodies;
   for (std::size_t b = 0; b < all.size(); ++b) {
     for (int j = all[b].tets.begin; j < all[b].tets.end; ++j)
-      values[static_cast<std::size_t>(j)] = density_of(s.model.masses()[b], j - all[b].tets.begin);
+      values[static_cast<std::size_t>(j)] = value(b, j - all[b].tets.begin);
   }
   return values;
 }
+
+Values densities(const Shape& s) {
+  return by_body(s, [&](std::size_t b, int j) { return density_of(s.model.masses()[b], j); });
+}
 Values bodies(const Shape& s) {
-  Values values(s.F.size());
-  const std::vector<Body>& all = s.model.mesh().bodies;
-  for (std::size_t b = 0; b < all.size(); ++b) {
-    for (int j = all[b].tets.begin; j < all[b].tets.end; ++j)
-      values[static_cast<std::size_t>(j)] = static_cast<double>(b);
-  }
-  return values;
+  return by_body(s, [](std::size_t b, int) { return static_cast<double>(b); });
 }
 
 Values vertex_means(const Shape& s, const Values& elements) {

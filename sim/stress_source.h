@@ -10,8 +10,11 @@ namespace lagomorph::sim {
 struct ElementStates {
   std::vector<Mat3> P;      // first Piola-Kirchhoff stress ∂ψ/∂F [Pa]
   std::vector<double> psi;  // energy density [J/m^3]
-  // Of the moduli C = ∂²ψ/∂F² at F = 1, whose isotropic mean (Voigt's) has C_iijj = 9K, C_ijij = 3K + 10 mu.
-  // [Pa]
+};
+
+/// Of each element's moduli C = ∂²ψ/∂F² at F = 1, whose isotropic mean (Voigt's) has C_iijj = 9K and
+/// C_ijij = 3K + 10 mu. [Pa]
+struct ElementModuli {
   std::vector<double> C_iijj, C_ijij;
 };
 
@@ -21,6 +24,7 @@ public:
   virtual ~StressSource() = default;
   /// Adds its own of its elements at q; the vectors are as long as the mesh has tets.
   virtual void add_states(const VecX& q, ElementStates&) const = 0;
+  virtual void add_moduli(ElementModuli&) const = 0;
 };
 
 }  // namespace lagomorph::sim
