@@ -54,16 +54,23 @@ struct Column {
   }
 };
 
+/// Calls with the middle and the length of the steps along a way, which grow as squares: the air is dense
+/// near the ground.
+void march(double length, int steps, const auto& visit) {
+  const auto end = [&](int i) {
+    const double t = static_cast<double>(i) / steps;
+    return t * t * length;
+  };
+  for (int i = 0; i < steps; ++i) visit(0.5 * (end(i) + end(i + 1)), end(i + 1) - end(i));
+}
+
+/// What sunlight meets.
 class Air {
 public:
   explicit Air(const Atmosphere& a) : haze_(haze(a.turbidity)) {
     const double e = a.elevation * pi / 180.0;
     const double z = a.azimuth * pi / 180.0;
     sun_ = Vec(std::cos(e) * std::sin(z), std::sin(e), -std::cos(e) * std::cos(z));
-    for (int i = 0; i < heights; ++i) {
-      for (int k = 0; k < cosines; ++k)
-        multiple_[static_cast<std::size_t>(cosines * i + k)] = multiple_at(height_of(i), cosine_of(k));
-    }
   }
 
   const Vec& sun() const { return sun_; }
@@ -73,44 +80,62 @@ public:
   /// What is left at a point of light from a sun; haze also absorbs a tenth of what it takes.
   Array sunlight(const Vec& x, const Vec& sun) const {
     if (meets_earth(x, sun)) return Array::Zero();
-    constexpr int steps = 24;
-    const double length = exit_distance(x, sun, top);
     Column column;
-    // Steps grow as squares: the air is dense near the ground.
-    for (int i = 0; i < steps; ++i) {
-      const double a = square(i, steps) * length;
-      const double b = square(i + 1, steps) * length;
-      column.add((x + 0.5 * (a + b) * sun).norm() - earth, b - a);
-    }
+    march(exit_distance(x, sun, top), 24,
+          [&](double middle, double step) { column.add((x + middle * sun).norm() - earth, step); });
     return through(column);
   }
 
+protected:
+  Array through(const Column& c) const {
+    return (-(air * c.air + Array::Constant(haze_ / 0.9 * c.haze) + ozone * c.ozone)).exp();
+  }
+  /// Along a way from a point: calls for each step with its middle, its length times what is left of light
+  /// from there [m], and what of it air and haze scatter [1/m]. What all of the way takes.
+  Column scatter(const Vec& from, const Vec& d, double length, int steps, const auto& visit) const {
+    Column column;
+    march(length, steps, [&](double middle, double step) {
+      const Vec x = from + middle * d;
+      const double height = x.norm() - earth;
+      Column half = column;
+      half.add(height, 0.5 * step);
+      column.add(height, step);
+      visit(x, step * through(half), Array(air * std::exp(-height / air_height)),
+            haze_ * std::exp(-height / haze_height));
+    });
+    return column;
+  }
+
+  double haze_;
+  Vec sun_;
+};
+
+/// The light of its sky.
+class SkyLight : public Air {
+public:
+  explicit SkyLight(const Atmosphere& a) : Air(a) {
+    for (int i = 0; i < heights; ++i) {
+      for (int k = 0; k < cosines; ++k)
+        multiple_[static_cast<std::size_t>(cosines * i + k)] = multiple_at(height_of(i), cosine_of(k));
+    }
+  }
+
   Array radiance(const Vec& d) const {
-    constexpr int steps = 40;
     const Vec eye(0.0, earth + 2.0, 0.0);
-    const double length = exit_distance(eye, d, top);
     const double c = d.dot(sun_);
     const double of_air = 3.0 / (16.0 * pi) * (1.0 + c * c);
     const double g = haze_forward;
     const double of_haze =
         3.0 / (8.0 * pi) * (1.0 - g * g) * (1.0 + c * c) /
         ((2.0 + g * g) * std::pow(1.0 + g * g - 2.0 * g * c, 1.5));  // [Cornette and Shanks 1992]
-    Column column;
     Array sum = Array::Zero();
-    for (int i = 0; i < steps; ++i) {
-      const double a = square(i, steps) * length;
-      const double b = square(i + 1, steps) * length;
-      const Vec x = eye + 0.5 * (a + b) * d;
-      const double height = x.norm() - earth;
-      Column half = column;
-      half.add(height, 0.5 * (b - a));
-      column.add(height, b - a);
-      const double haze_here = haze_ * std::exp(-height / haze_height);
-      const Array air_here = air * std::exp(-height / air_height);
-      const Array once = (air_here * of_air + haze_here * of_haze) * sunlight(x);
-      const Array again = (air_here + haze_here) * multiple(height, x.normalized().dot(sun_));
-      sum += (b - a) * (once + again) * through(half);
-    }
+    scatter(eye, d, exit_distance(eye, d, top), 40,
+            [&](const Vec& x, const Array& left, const Array& air_here, double haze_here) {
+              const Array once = (air_here * of_air + haze_here * of_haze) * sunlight(x);
+              const Array again =
+                  (air_here + haze_here) * multiple(x.norm() - earth, x.normalized().dot(sun_));
+              sum += left * (once + again);
+            });
     return sum;
   }
 
@@ -128,7 +153,7 @@ private:
   /// what the second order brings over 1 - f, f the part of it that each further order keeps [Hillaire 2020,
   /// Eqs. 5 to 10].
   Array multiple_at(double height, double cosine) const {
-    constexpr int around = 8, steps = 20;
+    constexpr int around = 8;
     const Vec from(0.0, earth + std::max(height, 1.0), 0.0);
     const Vec sun(std::sqrt(std::max(1.0 - cosine * cosine, 0.0)), cosine, 0.0);
     Array second = Array::Zero(), kept = Array::Zero();
@@ -139,20 +164,12 @@ private:
       const Vec d(across * std::cos(phi), y, across * std::sin(phi));
       const bool down = meets_earth(from, d);
       const double length = down ? entry_distance(from, d, earth) : exit_distance(from, d, top);
-      Column column;
-      for (int j = 0; j < steps; ++j) {
-        const double a = square(j, steps) * length;
-        const double b = square(j + 1, steps) * length;
-        const Vec x = from + 0.5 * (a + b) * d;
-        const double h = x.norm() - earth;
-        Column half = column;
-        half.add(h, 0.5 * (b - a));
-        column.add(h, b - a);
-        const Array part =
-            (b - a) * through(half) * (air * std::exp(-h / air_height) + haze_ * std::exp(-h / haze_height));
-        kept += part;
-        second += part * sunlight(x, sun) / (4.0 * pi);
-      }
+      const Column column = scatter(
+          from, d, length, 20, [&](const Vec& x, const Array& left, const Array& air_here, double haze_here) {
+            const Array part = left * (air_here + haze_here);
+            kept += part;
+            second += part * sunlight(x, sun) / (4.0 * pi);
+          });
       if (!down) continue;
       const Vec ground = from + length * d;
       const double facing = std::max(ground.normalized().dot(sun), 0.0);
@@ -174,23 +191,13 @@ private:
            fx * ((1.0 - fy) * at(i + 1, k) + fy * at(i + 1, k + 1));
   }
 
-  static double square(int i, int steps) {
-    const double t = static_cast<double>(i) / steps;
-    return t * t;
-  }
-  Array through(const Column& c) const {
-    return (-(air * c.air + Array::Constant(haze_ / 0.9 * c.haze) + ozone * c.ozone)).exp();
-  }
-
-  double haze_;
-  Vec sun_;
   std::array<Array, cells> multiple_;
 };
 
 }  // namespace
 
 SkyMap atmosphere_map(const Atmosphere& a, int width, int height) {
-  const Air air_around(a);
+  const SkyLight light(a);
   std::vector<Color> texels;
   texels.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   for (int y = 0; y < height; ++y) {
@@ -198,7 +205,7 @@ SkyMap atmosphere_map(const Atmosphere& a, int width, int height) {
     for (int x = 0; x < width; ++x) {
       const double phi = 2.0 * pi * ((x + 0.5) / width - 0.5);
       const Vec d(std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi));
-      texels.push_back(air_around.radiance(d).cast<float>());
+      texels.push_back(light.radiance(d).cast<float>());
     }
   }
   return {width, height, std::move(texels)};
