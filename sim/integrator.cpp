@@ -1,8 +1,9 @@
 #include "sim/integrator.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
+#include <string_view>
 #include <utility>
 
 #include "sim/error.h"
@@ -13,26 +14,32 @@ namespace lagomorph::sim {
 
 namespace {
 
-constexpr std::array<std::pair<StepStatus, std::string_view>, 6> kStatuses = {{
-    {StepStatus::converged, "converged"},
-    {StepStatus::rounding_floor, "rounding_floor"},
-    {StepStatus::not_converged, "not_converged"},
-    {StepStatus::not_positive, "not_positive"},
-    {StepStatus::not_finite, "not_finite"},
-    {StepStatus::inaccurate, "inaccurate"},
-}};
+struct StatusRow {
+  StepStatus status;
+  std::string_view word;
+  const char* sentence;  // how a step ended
+};
+constexpr StatusRow kStatuses[] = {
+    {StepStatus::converged, "converged", "converged"},
+    {StepStatus::rounding_floor, "rounding_floor", "came to the rounding floor"},
+    {StepStatus::not_converged, "not_converged", "did not converge"},
+    {StepStatus::not_positive, "not_positive", "had no positive definite system"},
+    {StepStatus::not_finite, "not_finite", "gave values that are not finite"},
+    {StepStatus::inaccurate, "inaccurate", "was too inaccurate"},
+};
+
+const StatusRow& row_of(StepStatus status) {
+  return *std::find_if(std::begin(kStatuses), std::end(kStatuses),
+                       [&](const StatusRow& row) { return row.status == status; });
+}
 
 }  // namespace
 
-std::string_view to_string(StepStatus status) {
-  for (const auto& [value, word] : kStatuses)
-    if (value == status) return word;
-  return "unknown";
-}
+std::string_view to_string(StepStatus status) { return row_of(status).word; }
 
 StepStatus step_status(std::string_view text) {
-  for (const auto& [value, word] : kStatuses)
-    if (word == text) return value;
+  for (const StatusRow& row : kStatuses)
+    if (row.word == text) return row.status;
   throw InputError("unknown status of a step '" + std::string(text) + "'");
 }
 
@@ -158,22 +165,6 @@ StepReport take_measured_step(const Stepping& with, double h, State& state, Fram
   return step;
 }
 
-/// How a failed step ended, in a sentence.
-const char* told(StepStatus status) {
-  switch (status) {
-    case StepStatus::not_converged:
-      return "did not converge";
-    case StepStatus::not_positive:
-      return "had no positive definite system";
-    case StepStatus::not_finite:
-      return "gave values that are not finite";
-    case StepStatus::inaccurate:
-      return "was too inaccurate";
-    default:
-      return "ended well";
-  }
-}
-
 std::string reason_of(const Stepping& with, const StepReport& step, const State& state, int depth) {
   std::string how =
       "residual " + short_number(step.residual) + " (tolerance " + short_number(with.solver.tolerance) + ")";
@@ -183,8 +174,8 @@ std::string reason_of(const Stepping& with, const StepReport& step, const State&
   const bool loose = with.integrator.name() == "static" && with.model.held(state.t).pins().vertices().empty();
   const std::string hint = loose ? "; nothing is pinned" : "";
   return "frame " + std::to_string(state.frame + 1) + ": " + with.integrator.step_name() + " of " +
-         short_number(step.h) + " s at t = " + short_number(state.t) + " s " + told(step.status) + " after " +
-         std::to_string(step.newton_iterations) + " Newton iterations with " + how + ", halved " +
+         short_number(step.h) + " s at t = " + short_number(state.t) + " s " + row_of(step.status).sentence +
+         " after " + std::to_string(step.newton_iterations) + " Newton iterations with " + how + ", halved " +
          std::to_string(depth) + " times" + hint;
 }
 

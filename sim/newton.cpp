@@ -220,7 +220,7 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
   if (held != pins_) linear_solver_.analyze(model.pattern(), *held);
   pins_ = held;
   NewtonReport report;
-  const double from = q.cwiseAbs().maxCoeff();
+  const double farthest = kFarthest * (q.cwiseAbs().maxCoeff() + model.mesh().X.cwiseAbs().maxCoeff());
   Point point = evaluate(model, phi, std::move(q));
   const auto end = [&](StepStatus status) {
     report.status = status;
@@ -265,7 +265,6 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
     const double step = search_line(model, phi, direction, point);
     if (step == 0.0) return end_stagnated();
     // Nothing holds what falls without end.
-    const double farthest = kFarthest * (from + model.mesh().X.cwiseAbs().maxCoeff());
     if (phi.m == 0.0 && point.q.cwiseAbs().maxCoeff() > farthest) return end(StepStatus::not_converged);
     report.iterates.push_back({point.residual(), point.value, step, used_clamping_});
     const bool crawls = point.norm > 0.5 * norm_before && point.norm > settings_.tolerance * point.reference;

@@ -78,24 +78,19 @@ private:
     const VecX last = model.load_force(end);
     const VecX first = state.frame > 0 ? model.load_force(start) : VecX();
     const auto load = [&](double part) {
-      VecX sum;
-      if (last.size() != 0) sum = part * last;
-      if (first.size() != 0)
-        sum = sum.size() == 0 ? VecX((1.0 - part) * first) : VecX(sum + (1.0 - part) * first);
+      VecX sum = VecX::Zero(q1.size());
+      if (last.size() != 0) sum += part * last;
+      if (first.size() != 0) sum += (1.0 - part) * first;
       return sum;
     };
     const auto balance = [&](const VecX& q, const VecX& f) {
-      VecX sum = f.size() == 0 ? VecX(VecX::Zero(q.size())) : VecX(-f);
+      VecX sum = -f;
       for (const auto& term : model.energies()) term->add_gradient(q, 1.0, sum);
       return sum;
     };
     const VecX load0 = load(before), load1 = load(after);
-    const VecX balance0 = balance(state.q, load0), balance1 = balance(q1, load1), dq = q1 - state.q;
-    report.account(held, 0.5 * (balance0 + balance1),
-                   load1.size() == 0   ? load0
-                   : load0.size() == 0 ? load1
-                                       : VecX(0.5 * (load0 + load1)),
-                   dq);
+    const VecX balance0 = balance(state.q, load0), balance1 = balance(q1, load1);
+    report.account(held, 0.5 * (balance0 + balance1), 0.5 * (load0 + load1), q1 - state.q);
     report.pin_forces = held.forces(balance1);
   }
 

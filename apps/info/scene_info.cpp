@@ -71,7 +71,8 @@ void add_ranges(Report& report, const sim::BodyInput& body, nlohmann::ordered_js
 }
 
 std::string range_text(double low, double high) {
-  return low == high ? number_text(low) : number_text(low) + " .. " + number_text(high);
+  const std::string first = number_text(low), last = number_text(high);
+  return first == last ? first : first + " .. " + last;
 }
 
 /// How a body's material behaves at rest, whatever its model's own constants; fibres, springs and loads.
@@ -81,10 +82,8 @@ void add_behaviour(Report& report, const sim::BodySettings& settings, const sim:
   for (const sim::Field& field : at_rest) {
     const auto [low, high] =
         std::minmax_element(field.elements.begin() + tets.begin, field.elements.begin() + tets.end);
-    text += fmt::format(
-        "{}{} {}{}{}", text.empty() ? "at rest " : ", ", field.info.name,
-        range_text(std::stod(fmt::format("{:.6g}", *low)), std::stod(fmt::format("{:.6g}", *high))),
-        *field.info.unit == 0 ? "" : " ", field.info.unit);
+    text += fmt::format("{}{} {}{}{}", text.empty() ? "at rest " : ", ", field.info.name,
+                        range_text(*low, *high), *field.info.unit == 0 ? "" : " ", field.info.unit);
     json["at_rest"][field.info.name] = {*low, *high};
   }
   report.add_text("", text);
