@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/error.h"
+#include "sim/rigid_motion.h"
 #include "sim/text.h"
 
 namespace lagomorph::sim {
@@ -29,6 +30,8 @@ constexpr double kArmijo = 1e-4;  // part of the predicted decrease that a step 
 constexpr double kLeastClamping = 1.0 / 64.0;
 /// Of the mass that is added to a singular Hessian, over the largest entries of both.
 constexpr double kLeastShift = 1e-14, kLargestShift = 1e-2;
+/// Work of a direction's rigid part over that of the whole, below which it does none.
+constexpr double kIdle = 1e-6;
 constexpr double kFarthest = 1e4;       // of a static equilibrium, over the bodies' coordinates
 constexpr int kMaxBacktracks = 40;      // halvings of a step while the energy tells steps apart
 constexpr int kMaxBlindBacktracks = 8;  // and where only the residual does
@@ -172,6 +175,22 @@ FactorStatus Newton::factorize_shifted(const Model& model) {
   return status;
 }
 
+/// Where nothing holds a body at rest, the Hessian is singular along its rigid motions, and the factor turns
+/// the rounding of g into a large one of no use: what of it does no work is taken from the direction.
+void Newton::drop_idle_motion(const Model& model, const Point& point, VecX& direction) const {
+  const double work = std::abs(point.g.dot(direction)),
+               rounding = kNearRoundingFloor * rounding_floor(point.q);
+  for (const Body& body : model.mesh().bodies) {
+    const int first = 3 * body.vertices.begin, size = 3 * (body.vertices.end - body.vertices.begin);
+    bool free = true;
+    for (int dof = first; dof < first + size && free; ++dof) free = !pins().is_held(dof);
+    if (!free) continue;
+    const VecX rigid = rigid_part(point.q.segment(first, size), direction.segment(first, size));
+    if (std::abs(point.g.segment(first, size).dot(rigid)) <= std::max(kIdle * work, rounding * rigid.norm()))
+      direction.segment(first, size) -= rigid;
+  }
+}
+
 /// Goes along the direction to a point that is better, and returns which part of it that took; 0 when there
 /// was none.
 double Newton::search_line(const Model& model, const IncrementalPotential& phi, const VecX& direction,
@@ -261,6 +280,7 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
       continue;
     }
 
+    if (phi.m == 0.0) drop_idle_motion(model, point, direction);
     const double norm_before = point.norm;
     const double step = search_line(model, phi, direction, point);
     if (step == 0.0) return end_stagnated();

@@ -54,6 +54,7 @@ private:
   void assemble(const Model&, const IncrementalPotential&, const VecX& q, HessianKind, BlockHessian& H) const;
   FactorStatus factorize(const Model&, const IncrementalPotential&, const VecX& q, double& clamping);
   FactorStatus factorize_shifted(const Model&);
+  void drop_idle_motion(const Model&, const Point&, VecX& direction) const;
   double search_line(const Model&, const IncrementalPotential&, const VecX& direction, Point& point) const;
   double carry(const Model&, const IncrementalPotential&, const VecX& direction, Point& point) const;
   double rounding_floor(const VecX& q) const;
