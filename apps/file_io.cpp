@@ -92,6 +92,11 @@ void make_folder(const fs::path& folder) {
   fail(folder, "the folder cannot be made", error);
 }
 
+bool is_there(const fs::path& path) {
+  std::error_code none;
+  return fs::exists(path, none);
+}
+
 std::string read_file(const fs::path& path) {
   const auto unreadable = [&](int error) {
     return Error(ExitStatus::wrong_input, path.string() + ": cannot be read: " + std::strerror(error));

@@ -13,6 +13,9 @@ namespace lagomorph::apps {
 /// in its way), Error(machine) when the machine refuses (read-only, full, no permission).
 void make_folder(const std::filesystem::path&);
 
+/// False too where it cannot be told.
+bool is_there(const std::filesystem::path&);
+
 /// The whole file. Throws Error(wrong_input) when it cannot be read.
 std::string read_file(const std::filesystem::path&);
 

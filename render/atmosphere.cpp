@@ -14,7 +14,7 @@ namespace {
 using Array = Eigen::Array3d;
 using Vec = Eigen::Vector3d;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double earth = 6.36e6;    // radius [m]
 constexpr double top = 6.42e6;      // of the air
 constexpr double air_height = 8e3;  // in which its density falls to 1/e [m]

@@ -11,7 +11,7 @@
 namespace lagomorph::render {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 }  // namespace
 

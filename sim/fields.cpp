@@ -136,13 +136,13 @@ Values vertex_displacements(const Shape& s) {
   return values;
 }
 
-struct Row {
+struct FieldRow {
   FieldInfo info;
   Values (*elements)(const Shape&);
   Values (*vertices)(const Shape&);  // nullptr: means of the elements
 };
 /// The explicit table: a new field is one row.
-constexpr std::array<Row, 8> table = {{
+constexpr std::array<FieldRow, 8> table = {{
     {{"von_mises", "Pa", "von Mises stress of the Cauchy stress", "von Mises stress"}, stresses, nullptr},
     {{"J", "", "volume ratio det F", "volume ratio J"}, determinants, nullptr},
     {{"energy_density", "J/m^3", "elastic energy per volume at rest", "elastic energy density"},
@@ -160,9 +160,9 @@ constexpr std::array<Row, 8> table = {{
     {{"body", "", "number of the body, from 0", "body"}, bodies, nullptr},
 }};
 
-const Row& find_row(std::string_view name) {
+const FieldRow& find_row(std::string_view name) {
   std::string names;
-  for (const Row& row : table) {
+  for (const FieldRow& row : table) {
     if (name == row.info.name) return row;
     names += (names.empty() ? "" : ", ") + std::string(row.info.name);
   }
@@ -180,7 +180,7 @@ double von_mises(const Mat3& stress) {
 
 std::vector<FieldInfo> field_table() {
   std::vector<FieldInfo> all;
-  for (const Row& row : table) all.push_back(row.info);
+  for (const FieldRow& row : table) all.push_back(row.info);
   return all;
 }
 
@@ -191,7 +191,7 @@ std::vector<Field> fields_of(const Model& model, const VecX& q, const std::vecto
   const Shape shape = shape_of(model, q);
   std::vector<Field> fields;
   for (const std::string& name : names) {
-    const Row& row = find_row(name);
+    const FieldRow& row = find_row(name);
     Values elements = row.elements(shape);
     Values vertices = row.vertices != nullptr ? row.vertices(shape) : vertex_means(shape, elements);
     fields.push_back({row.info, std::move(elements), std::move(vertices)});

@@ -45,13 +45,13 @@ StepStatus step_status(std::string_view text) {
 
 namespace {
 
-struct Row {
+struct IntegratorRow {
   const char* name;
   std::unique_ptr<Integrator> (*make)(const TimeSettings&, const SolverSettings&, const Model&);
 };
 
 /// The explicit table: a new integrator is one row.
-constexpr Row kTable[] = {
+constexpr IntegratorRow kTable[] = {
     {"backward_euler", make_backward_euler},
     {"linearly_implicit_euler", make_linearly_implicit_euler},
     {"bdf2", make_bdf2},
@@ -98,7 +98,7 @@ double largest_free(const Pins& pins, const VecX& d) {
 
 std::vector<std::string> integrator_names() {
   std::vector<std::string> names;
-  for (const Row& row : kTable) names.emplace_back(row.name);
+  for (const IntegratorRow& row : kTable) names.emplace_back(row.name);
   return names;
 }
 
@@ -106,7 +106,7 @@ std::unique_ptr<Integrator> make_integrator(const TimeSettings& time, const Solv
                                             const Model& model) {
   check(time);
   std::string names;
-  for (const Row& row : kTable) {
+  for (const IntegratorRow& row : kTable) {
     if (time.integrator == row.name) return row.make(time, solver, model);
     names += (names.empty() ? "" : ", ") + std::string(row.name);
   }

@@ -21,23 +21,23 @@ struct FieldKey {
   const char* range;
 };
 
-bool is_positive(double x) { return x > 0.0; }
+bool is_above_zero(double x) { return x > 0.0; }
 bool is_not_negative(double x) { return x >= 0.0; }
 
-const std::vector<FieldKey>& field_table() {
+const std::vector<FieldKey>& painted_fields() {
   static const std::vector<FieldKey> rows = {
-      {"young", &MaterialSettings::young, is_positive, "> 0 Pa"},
+      {"young", &MaterialSettings::young, is_above_zero, "> 0 Pa"},
       {"poisson", &MaterialSettings::poisson, [](double x) { return x > -1.0 && x < 0.5; }, "in (-1, 0.5)"},
-      {"mu", &MaterialSettings::mu, is_positive, "> 0 Pa"},
+      {"mu", &MaterialSettings::mu, is_above_zero, "> 0 Pa"},
       {"lambda", &MaterialSettings::lambda, [](double) { return true; }, "finite"},
-      {"C", &MaterialSettings::C, is_positive, "> 0 Pa"},
+      {"C", &MaterialSettings::C, is_above_zero, "> 0 Pa"},
       {"D", &MaterialSettings::D, is_not_negative, ">= 0 Pa"},
-      {"density", nullptr, is_positive, "> 0 kg/m^3"}};
+      {"density", nullptr, is_above_zero, "> 0 kg/m^3"}};
   return rows;
 }
 
 const FieldKey* find_key(const std::string& name) {
-  for (const FieldKey& row : field_table())
+  for (const FieldKey& row : painted_fields())
     if (row.name == name) return &row;
   return nullptr;
 }
@@ -236,7 +236,7 @@ void apply_field(const TetMesh& body, const std::vector<Vec3>& centroids, const 
   const FieldKey* const key = find_key(field.key);
   if (key == nullptr) {
     std::string names;
-    for (const FieldKey& row : field_table()) names += (names.empty() ? "" : ", ") + std::string(row.name);
+    for (const FieldKey& row : painted_fields()) names += (names.empty() ? "" : ", ") + std::string(row.name);
     throw InputError(place + ": unknown key '" + field.key + "'; valid ones are " + names);
   }
   const bool is_painted = !field.file.empty() || !field.painted.empty();
@@ -273,7 +273,7 @@ std::string place_of(const std::string& given, const std::string& where, const c
 
 std::vector<std::string> field_keys() {
   std::vector<std::string> names;
-  for (const FieldKey& row : field_table()) names.emplace_back(row.name);
+  for (const FieldKey& row : painted_fields()) names.emplace_back(row.name);
   return names;
 }
 

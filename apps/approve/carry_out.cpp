@@ -30,11 +30,6 @@ std::string first_golden_toml(const ApproveRequest& request) {
   return text;
 }
 
-bool is_there(const fs::path& file) {
-  std::error_code none;
-  return fs::exists(file, none);
-}
-
 /// The channels that a golden has use for: statistics are small, body ids are where a mask asks for them.
 std::vector<const char*> channels_of(const fs::path& golden) {
   std::vector<const char*> channels = {render::statistics_channel};

@@ -19,7 +19,7 @@ namespace lagomorph::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 /// The frames that failed in a report, with the sha-256 of the picture that was judged; empty where none was.
 std::map<int, std::string> failed_in(const fs::path& report) {
@@ -38,11 +38,6 @@ std::map<int, std::string> failed_in(const fs::path& report) {
     wrong_input(fmt::format("{}: is no report of lagomorph check ({})", report.string(), e.what()));
   }
   return failed;
-}
-
-bool is_there(const fs::path& path) {
-  std::error_code none;
-  return fs::exists(path, none);
 }
 
 /// Where the golden's picture of a frame is, or goes: beside the others of its kind.

@@ -70,7 +70,7 @@ std::string words(std::string name) {
 
 bool is_place(std::string_view column) { return column == "frame" || column == "time"; }
 
-void require(const Table& table, const std::vector<std::string>& columns) {
+void require(const NumberTable& table, const std::vector<std::string>& columns) {
   std::vector<std::string> known;
   for (const std::string& name : table.names) {
     if (!is_place(name)) known.push_back(name);
@@ -89,7 +89,7 @@ Axis place_axis(Over over) {
 }
 
 /// The figure of the columns; a curve alone gives it its title.
-Figure figure_of(const Table& table, const std::vector<std::size_t>& columns, const Kind& kind) {
+Figure figure_of(const NumberTable& table, const std::vector<std::size_t>& columns, const Kind& kind) {
   Figure figure{.title = kind.title,
                 .x = place_axis(kind.over),
                 .y = {.label = kind.label, .unit = kind.unit, .log = kind.log, .whole = kind.whole},
@@ -103,7 +103,7 @@ Figure figure_of(const Table& table, const std::vector<std::size_t>& columns, co
   return figure;
 }
 
-void add_seconds(Table& table, const std::map<int, FrameRecord>& records) {
+void add_seconds(NumberTable& table, const std::map<int, FrameRecord>& records) {
   const std::vector<double>* frames = table.find("frame");
   if (records.empty() || frames == nullptr) return;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -128,7 +128,7 @@ void add_seconds(Table& table, const std::map<int, FrameRecord>& records) {
 
 }  // namespace
 
-Table read_run_table(const fs::path& run) {
+NumberTable read_run_table(const fs::path& run) {
   const RunPaths paths(run);
   std::error_code error;
   if (!fs::is_directory(run, error)) {
@@ -138,7 +138,7 @@ Table read_run_table(const fs::path& run) {
   std::map<int, FrameRecord> records = read_records(paths);
   if (records.empty()) records = read_gathered_records(paths);
   const bool written = fs::exists(paths.energy(), error);
-  Table table =
+  NumberTable table =
       read_table(written ? read_file(paths.energy()) : energy_csv(records), paths.energy().string());
   for (const char* column : {"frame", "time"}) {
     if (table.find(column) == nullptr)
@@ -150,7 +150,7 @@ Table read_run_table(const fs::path& run) {
   return table;
 }
 
-std::vector<NamedFigure> run_figures(const Table& table, const std::vector<std::string>& columns) {
+std::vector<NamedFigure> run_figures(const NumberTable& table, const std::vector<std::string>& columns) {
   require(table, columns);
   const auto asked = [&](const std::string& name) {
     return std::find(columns.begin(), columns.end(), name) != columns.end();

@@ -30,13 +30,13 @@ double number(std::string_view cell) {
 
 }  // namespace
 
-const std::vector<double>* Table::find(std::string_view name) const {
+const std::vector<double>* NumberTable::find(std::string_view name) const {
   const auto at = std::find(names.begin(), names.end(), name);
   return at == names.end() ? nullptr : &columns[static_cast<std::size_t>(at - names.begin())];
 }
 
-Table read_table(std::string_view text, const std::string& what) {
-  Table table;
+NumberTable read_table(std::string_view text, const std::string& what) {
+  NumberTable table;
   for (int line_number = 1; !text.empty(); ++line_number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, end);

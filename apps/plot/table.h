@@ -7,7 +7,7 @@
 namespace lagomorph::apps {
 
 /// Numbers by columns, as in a CSV file with a line of names first.
-struct Table {
+struct NumberTable {
   std::vector<std::string> names;
   std::vector<std::vector<double>> columns;  // of one size
 
@@ -18,6 +18,6 @@ struct Table {
 
 /// Reads CSV of plain numbers; what is no number, an empty cell among it, is NaN. Throws Error(wrong_input),
 /// prefixed by `what`, for a line with another number of cells.
-Table read_table(std::string_view text, const std::string& what);
+NumberTable read_table(std::string_view text, const std::string& what);
 
 }  // namespace lagomorph::apps

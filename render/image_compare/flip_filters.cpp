@@ -10,7 +10,7 @@
 namespace lagomorph::render {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// a sqrt(pi/b) exp(-pi^2 x^2 / b), x in degrees [Andersson 2020, Eq. 5 and Table 1].
 struct Sensitivity {

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "render/path/microfacet.h"
 
 namespace lagomorph::render::path {
 namespace {
-
-constexpr float inv_pi = std::numbers::inv_pi_v<float>;
 
 float pow5(float x) {
   const float x2 = x * x;
@@ -15,13 +14,6 @@ float pow5(float x) {
 }
 
 float luminance(const Color& c) { return 0.2126F * c.x() + 0.7152F * c.y() + 0.0722F * c.z(); }
-
-/// D(h) = 1 / (pi alpha^2 (hx^2/alpha^2 + hy^2/alpha^2 + hz^2)^2) [Walter et al. 2007].
-float ggx(const Vec3& h, float alpha) {
-  const float a2 = alpha * alpha;
-  const float k = (h.x() * h.x() + h.y() * h.y()) / a2 + h.z() * h.z();
-  return inv_pi / (a2 * k * k);
-}
 
 /// cos_w (1 + 2 Lambda(w)) = sqrt(alpha^2 sin^2 + cos^2).
 float smith_root(const Vec3& w, float alpha) {

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "render/path/microfacet.h"
 
 namespace lagomorph::render::path {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
-constexpr float inv_pi = std::numbers::inv_pi_v<float>;
 constexpr float just_under_one = 0x1.fffffep-1F;
-
-Vec3 mirrored(const Vec3& w) { return {w.x(), w.y(), -w.z()}; }
 
 /// What is not clear: of the part 1 - transmission (1 - metallic), so that it weighs as it should.
 Material opaque_part(const Material& m) {

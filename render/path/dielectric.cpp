@@ -2,22 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "render/path/microfacet.h"
 
 namespace lagomorph::render::path {
 namespace {
 
-constexpr float inv_pi = std::numbers::inv_pi_v<float>;
 constexpr float roughest_stand_in = 0.5F;  // alpha
 
 float square(float x) { return x * x; }
-
-/// D(h) [Walter et al. 2007, Eq. 33].
-float ggx(const Vec3& h, float alpha) {
-  const float a2 = alpha * alpha;
-  const float k = (h.x() * h.x() + h.y() * h.y()) / a2 + h.z() * h.z();
-  return inv_pi / (a2 * k * k);
-}
 
 /// 1 + 2 Lambda(w), so that G1 = 2 / (1 + this) [Heitz 2014].
 float masking(const Vec3& w, float alpha) {
@@ -45,8 +38,6 @@ Vec3 refracted(const Vec3& wo, const Vec3& h, float eta) {
 /// Probability of following the reflection of the part f. From outside lamps are seen in it that no other
 /// sample finds where the surface is smooth.
 float reflection_pick(float f, bool outside) { return outside ? std::max(f, 0.15F) : f; }
-
-Vec3 mirrored(const Vec3& w) { return {w.x(), w.y(), -w.z()}; }
 
 /// Part of the light along a cosine that single scattering lets go, over a lattice of visible normals.
 float directional_albedo(float cosine, float alpha, float eta) {

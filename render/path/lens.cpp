@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "render/path/microfacet.h"
 
 namespace lagomorph::render::path {
 namespace {
-
-constexpr float pi = std::numbers::pi_v<float>;
 
 Vec2 on_disc(Pair s) {
   const float a = 2.0F * s.u - 1.0F;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "render/path/microfacet.h"
 #include "render/path/tile_statistics.h"
 
 namespace lagomorph::render::path {
@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t batch_size = 1024;
 constexpr std::size_t most_lights_at_once = 4;
 constexpr std::uint32_t roulette_depth = 3;
-constexpr float inv_pi = std::numbers::inv_pi_v<float>;
 
 // Names of the sample pairs; those of a surface are counted from surface_dimensions * (its depth + 1).
 constexpr std::uint32_t pixel_dimension = 0;

@@ -2,15 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "render/path/microfacet.h"
 
 namespace lagomorph::render::path {
-namespace {
-
-constexpr float pi = std::numbers::pi_v<float>;
-
-}  // namespace
-
 Sheen::Sheen(float roughness) : power_(1.0F / std::max(roughness * roughness, 0.01F)), scale_(1.0F) {
   constexpr int rings = 64;
   constexpr int spokes = 64;  // over half a turn

@@ -7,7 +7,7 @@
 namespace lagomorph::render::path {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+constexpr double half_turn = std::numbers::pi;
 
 double luminance(const Color& c) { return 0.2126 * c.x() + 0.7152 * c.y() + 0.0722 * c.z(); }
 
@@ -24,7 +24,7 @@ double mean_luminance(const SkyMap& map, int x, int y) {
 }
 
 /// Cosine from straight up at the upper border of a row.
-double border_cosine(const SkyMap& map, int y) { return std::cos(pi * y / map.height()); }
+double border_cosine(const SkyMap& map, int y) { return std::cos(half_turn * y / map.height()); }
 
 /// Makes running sums of n + 1 entries from the weights that stand in entries 1 .. n; their total.
 double accumulate(double* sums, int n) {
@@ -67,7 +67,7 @@ double SkySampler::texel_pdf(int x, int y) const {
       &columns_[static_cast<std::size_t>(y) * (static_cast<std::size_t>(map_.width()) + 1)];
   const auto r = static_cast<std::size_t>(y);
   const double share = (rows_[r + 1] - rows_[r]) * (row[x + 1] - row[x]);
-  return share * map_.width() / (2.0 * pi * (border_cosine(map_, y) - border_cosine(map_, y + 1)));
+  return share * map_.width() / (2.0 * half_turn * (border_cosine(map_, y) - border_cosine(map_, y + 1)));
 }
 
 SkySampler::Sample SkySampler::sample(Pair s) const {
@@ -80,7 +80,7 @@ SkySampler::Sample SkySampler::sample(Pair s) const {
   const int x = find(row, map_.width(), static_cast<double>(s.u), along);
   const double top = border_cosine(map_, y);
   const double cosine = top + down * (border_cosine(map_, y + 1) - top);
-  const double v = std::acos(std::clamp(cosine, -1.0, 1.0)) / pi;
+  const double v = std::acos(std::clamp(cosine, -1.0, 1.0)) / half_turn;
   return {map_.direction((x + along) / map_.width(), v), static_cast<float>(texel_pdf(x, y))};
 }
 

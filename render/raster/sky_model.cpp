@@ -7,7 +7,7 @@
 namespace lagomorph::render::raster {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double golden_angle = pi * (3.0 - 2.23606797749978969);
 
 /// Integral of max(a cos(phi) + b, 0) over a turn, a >= 0.

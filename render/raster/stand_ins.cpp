@@ -11,7 +11,7 @@
 namespace lagomorph::render::raster {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// So far that its light is parallel to a degree over the ground, and so near that single precision still
 /// resolves its shadows.

@@ -8,9 +8,9 @@
 namespace lagomorph::sim::io {
 namespace {
 
-class Reader {
+class Gmsh2Reader {
 public:
-  explicit Reader(GmshNumbers& numbers) : numbers_(numbers), scanner_(numbers.scanner()) {}
+  explicit Gmsh2Reader(GmshNumbers& numbers) : numbers_(numbers), scanner_(numbers.scanner()) {}
 
   void read_nodes() {
     const std::size_t count = text_count("nodes", 8, 28);
@@ -92,7 +92,7 @@ private:
 }  // namespace
 
 TetMesh read_gmsh_2(GmshNumbers& numbers) {
-  Reader reader(numbers);
+  Gmsh2Reader reader(numbers);
   Scanner& scanner = numbers.scanner();
   for_each_gmsh_section(numbers, [&](const std::string& name) {
     if (name == "$Nodes") {

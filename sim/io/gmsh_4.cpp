@@ -9,9 +9,9 @@
 namespace lagomorph::sim::io {
 namespace {
 
-class Reader {
+class Gmsh4Reader {
 public:
-  explicit Reader(GmshNumbers& numbers) : numbers_(numbers), scanner_(numbers.scanner()) {}
+  explicit Gmsh4Reader(GmshNumbers& numbers) : numbers_(numbers), scanner_(numbers.scanner()) {}
 
   /// The entities' physical tags; those of volumes are kept. Partitioned ones say more of their parents.
   void read_entities(bool partitioned) {
@@ -139,7 +139,7 @@ private:
 }  // namespace
 
 TetMesh read_gmsh_4(GmshNumbers& numbers) {
-  Reader reader(numbers);
+  Gmsh4Reader reader(numbers);
   Scanner& scanner = numbers.scanner();
   for_each_gmsh_section(numbers, [&](const std::string& name) {
     if (name == "$Entities" || name == "$PartitionedEntities") {

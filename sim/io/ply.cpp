@@ -13,27 +13,27 @@
 namespace lagomorph::sim::io {
 namespace {
 
-struct TypeName {
+struct PlyType {
   std::string_view name;
   NumberType type;
 };
 
-constexpr std::array<TypeName, 16> kTypes = {{{"char", NumberType::kInt8},
-                                              {"int8", NumberType::kInt8},
-                                              {"uchar", NumberType::kUInt8},
-                                              {"uint8", NumberType::kUInt8},
-                                              {"short", NumberType::kInt16},
-                                              {"int16", NumberType::kInt16},
-                                              {"ushort", NumberType::kUInt16},
-                                              {"uint16", NumberType::kUInt16},
-                                              {"int", NumberType::kInt32},
-                                              {"int32", NumberType::kInt32},
-                                              {"uint", NumberType::kUInt32},
-                                              {"uint32", NumberType::kUInt32},
-                                              {"float", NumberType::kFloat32},
-                                              {"float32", NumberType::kFloat32},
-                                              {"double", NumberType::kFloat64},
-                                              {"float64", NumberType::kFloat64}}};
+constexpr std::array<PlyType, 16> kPlyTypes = {{{"char", NumberType::kInt8},
+                                                {"int8", NumberType::kInt8},
+                                                {"uchar", NumberType::kUInt8},
+                                                {"uint8", NumberType::kUInt8},
+                                                {"short", NumberType::kInt16},
+                                                {"int16", NumberType::kInt16},
+                                                {"ushort", NumberType::kUInt16},
+                                                {"uint16", NumberType::kUInt16},
+                                                {"int", NumberType::kInt32},
+                                                {"int32", NumberType::kInt32},
+                                                {"uint", NumberType::kUInt32},
+                                                {"uint32", NumberType::kUInt32},
+                                                {"float", NumberType::kFloat32},
+                                                {"float32", NumberType::kFloat32},
+                                                {"double", NumberType::kFloat64},
+                                                {"float64", NumberType::kFloat64}}};
 
 struct Property {
   std::string name;
@@ -58,17 +58,17 @@ struct Element {
 NumberType read_type(Scanner& scanner) {
   const std::string_view name = scanner.token("a property's type");
   const auto* found =
-      std::find_if(kTypes.begin(), kTypes.end(), [&](const TypeName& t) { return t.name == name; });
-  if (found == kTypes.end()) {
+      std::find_if(kPlyTypes.begin(), kPlyTypes.end(), [&](const PlyType& t) { return t.name == name; });
+  if (found == kPlyTypes.end()) {
     scanner.fail("property type " + in_quotes(name) +
                  "; char, uchar, short, ushort, int, uint, float and double are known");
   }
   return found->type;
 }
 
-class Reader {
+class PlyReader {
 public:
-  explicit Reader(const File& file) : scanner_(file) {}
+  explicit PlyReader(const File& file) : scanner_(file) {}
 
   TriMesh read() {
     read_header();
@@ -239,7 +239,7 @@ private:
 
 }  // namespace
 
-TriMesh read_ply(const File& file, Remarks&) { return Reader(file).read(); }
+TriMesh read_ply(const File& file, Remarks&) { return PlyReader(file).read(); }
 
 std::string write_ply(const TriMesh& mesh) { return write_ply(mesh, {}); }
 

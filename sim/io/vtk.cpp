@@ -1,5 +1,5 @@
 // Legacy VTK, ASCII and binary, versions 1 to 5.1. (docs.vtk.org, "VTK File Formats", "Simple Legacy
-// Formats"; "VTK Legacy Reader/Writer Information Format"; the cells of 5.1 are those of vtkCellArray:
+// Formats"; "VTK Legacy VtkReader/Writer Information Format"; the cells of 5.1 are those of vtkCellArray:
 // offsets and connectivity)
 #include <algorithm>
 #include <array>
@@ -14,28 +14,28 @@
 namespace lagomorph::sim::io {
 namespace {
 
-struct TypeName {
+struct VtkType {
   std::string_view name;
   NumberType type;
 };
 
-constexpr std::array kTypes = {
-    TypeName{"char", NumberType::kInt8},
-    TypeName{"signed_char", NumberType::kInt8},
-    TypeName{"unsigned_char", NumberType::kUInt8},
-    TypeName{"short", NumberType::kInt16},
-    TypeName{"unsigned_short", NumberType::kUInt16},
-    TypeName{"int", NumberType::kInt32},
-    TypeName{"unsigned_int", NumberType::kUInt32},
-    TypeName{"long", NumberType::kInt64},
-    TypeName{"unsigned_long", NumberType::kUInt64},
-    TypeName{"float", NumberType::kFloat32},
-    TypeName{"double", NumberType::kFloat64},
-    TypeName{"vtktypeint64", NumberType::kInt64},
-    TypeName{"vtktypeuint64", NumberType::kUInt64},
-    TypeName{"vtktypeint32", NumberType::kInt32},
+constexpr std::array kVtkTypes = {
+    VtkType{"char", NumberType::kInt8},
+    VtkType{"signed_char", NumberType::kInt8},
+    VtkType{"unsigned_char", NumberType::kUInt8},
+    VtkType{"short", NumberType::kInt16},
+    VtkType{"unsigned_short", NumberType::kUInt16},
+    VtkType{"int", NumberType::kInt32},
+    VtkType{"unsigned_int", NumberType::kUInt32},
+    VtkType{"long", NumberType::kInt64},
+    VtkType{"unsigned_long", NumberType::kUInt64},
+    VtkType{"float", NumberType::kFloat32},
+    VtkType{"double", NumberType::kFloat64},
+    VtkType{"vtktypeint64", NumberType::kInt64},
+    VtkType{"vtktypeuint64", NumberType::kUInt64},
+    VtkType{"vtktypeint32", NumberType::kInt32},
     // Written with 32 bits whatever the ids of the program have.
-    TypeName{"vtkidtype", NumberType::kInt32},
+    VtkType{"vtkidtype", NumberType::kInt32},
 };
 
 /// Attributes of a name and a type that follow POINT_DATA or CELL_DATA: how many numbers an item.
@@ -55,9 +55,9 @@ std::string lower(std::string_view word) {
   return result;
 }
 
-class Reader {
+class VtkReader {
 public:
-  explicit Reader(const File& file) : scanner_(file) {}
+  explicit VtkReader(const File& file) : scanner_(file) {}
 
   TetMesh read() {
     read_header();
@@ -267,8 +267,8 @@ private:
   NumberType number_type(std::string_view name) {
     const std::string wanted = lower(name);
     const auto* found =
-        std::find_if(kTypes.begin(), kTypes.end(), [&](const TypeName& t) { return t.name == wanted; });
-    if (found == kTypes.end()) scanner_.fail("unknown data type " + in_quotes(name));
+        std::find_if(kVtkTypes.begin(), kVtkTypes.end(), [&](const VtkType& t) { return t.name == wanted; });
+    if (found == kVtkTypes.end()) scanner_.fail("unknown data type " + in_quotes(name));
     return found->type;
   }
 
@@ -307,7 +307,7 @@ private:
 
 }  // namespace
 
-TetMesh read_vtk(const File& file, Remarks&) { return Reader(file).read(); }
+TetMesh read_vtk(const File& file, Remarks&) { return VtkReader(file).read(); }
 
 std::string write_vtk(const TetMesh& mesh) {
   TextWriter out;

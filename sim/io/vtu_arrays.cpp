@@ -14,20 +14,20 @@
 namespace lagomorph::sim::io {
 namespace {
 
-struct TypeName {
+struct VtuType {
   std::string_view name;
   NumberType type;
 };
-constexpr std::array<TypeName, 10> kTypes = {{{"Int8", NumberType::kInt8},
-                                              {"UInt8", NumberType::kUInt8},
-                                              {"Int16", NumberType::kInt16},
-                                              {"UInt16", NumberType::kUInt16},
-                                              {"Int32", NumberType::kInt32},
-                                              {"UInt32", NumberType::kUInt32},
-                                              {"Int64", NumberType::kInt64},
-                                              {"UInt64", NumberType::kUInt64},
-                                              {"Float32", NumberType::kFloat32},
-                                              {"Float64", NumberType::kFloat64}}};
+constexpr std::array<VtuType, 10> kVtuTypes = {{{"Int8", NumberType::kInt8},
+                                                {"UInt8", NumberType::kUInt8},
+                                                {"Int16", NumberType::kInt16},
+                                                {"UInt16", NumberType::kUInt16},
+                                                {"Int32", NumberType::kInt32},
+                                                {"UInt32", NumberType::kUInt32},
+                                                {"Int64", NumberType::kInt64},
+                                                {"UInt64", NumberType::kUInt64},
+                                                {"Float32", NumberType::kFloat32},
+                                                {"Float64", NumberType::kFloat64}}};
 
 /// Bytes that are taken one part after the other, raw or out of base64.
 class Source {
@@ -196,8 +196,9 @@ std::vector<Value> VtuArrays::values(pugi::xml_node array, std::uint64_t count, 
   const std::string name = "array " + in_quotes(array.attribute("Name").value());
   const std::string_view type_name = array.attribute("type").value();
   const auto* type =
-      std::find_if(kTypes.begin(), kTypes.end(), [&](const TypeName& t) { return t.name == type_name; });
-  if (type == kTypes.end()) fail(array, name + " is of type " + in_quotes(type_name) + ", which is unknown");
+      std::find_if(kVtuTypes.begin(), kVtuTypes.end(), [&](const VtuType& t) { return t.name == type_name; });
+  if (type == kVtuTypes.end())
+    fail(array, name + " is of type " + in_quotes(type_name) + ", which is unknown");
   const std::string_view format = array.attribute("format").value();
   std::vector<Value> result;
   if (format == "ascii") {

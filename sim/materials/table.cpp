@@ -21,7 +21,7 @@ namespace lagomorph::sim {
 
 namespace {
 
-struct Row {
+struct ModelRow {
   std::string name;
   void (*check)(const MaterialSettings&, const std::string& where);
   std::unique_ptr<const MaterialPoint> (*make_point)(const MaterialSettings&, const std::string& where);
@@ -91,22 +91,22 @@ void append(const TetMesh& mesh, const std::vector<ElasticBody>& bodies,
 }
 
 template <EnergyDensity Material>
-Row row() {
+ModelRow row() {
   return {Material::kName, check<Material>, make_point<Material>, append<Material>};
 }
 
 /// The explicit table: a new material is one row.
-const std::vector<Row>& table() {
-  static const std::vector<Row> rows = {
+const std::vector<ModelRow>& table() {
+  static const std::vector<ModelRow> rows = {
       row<NeoHookean>(),   row<NeoHookeanLog>(),     row<StableNeoHookean>(), row<StableNeoHookeanLog>(),
       row<MooneyRivlin>(), row<StVenantKirchhoff>(), row<Corotated>(),        row<FixedCorotated>(),
       row<Arap>(),         row<LinearElasticity>(),  row<StressStrain>()};
   return rows;
 }
 
-const Row& find(const std::string& model, const std::string& where) {
+const ModelRow& find(const std::string& model, const std::string& where) {
   std::string names;
-  for (const Row& r : table()) {
+  for (const ModelRow& r : table()) {
     if (r.name == model) return r;
     names += (names.empty() ? "" : ", ") + r.name;
   }
@@ -117,12 +117,12 @@ const Row& find(const std::string& model, const std::string& where) {
 
 std::vector<std::string> material_names() {
   std::vector<std::string> names;
-  for (const Row& r : table()) names.push_back(r.name);
+  for (const ModelRow& r : table()) names.push_back(r.name);
   return names;
 }
 
 void check_material(const MaterialSettings& settings, const std::string& where) {
-  const Row& model = find(settings.model, where);
+  const ModelRow& model = find(settings.model, where);
   if (!settings.data.empty() && settings.model != StressStrain::kName)
     throw InputError(where + ": data belong to " + StressStrain::kName + ", not to " + settings.model);
   if (settings.moduli != "lecture" && settings.model != "neo_hookean")
@@ -141,7 +141,7 @@ std::vector<std::unique_ptr<Energy>> make_elasticity(const TetMesh& mesh,
                                                      const std::shared_ptr<const BlockPattern>& pattern) {
   for (const ElasticBody& body : bodies) check_material(body.material, body.where);
   std::vector<std::unique_ptr<Energy>> terms;
-  for (const Row& r : table()) {
+  for (const ModelRow& r : table()) {
     std::vector<ElasticBody> of_this_model;
     for (const ElasticBody& body : bodies)
       if (body.material.model == r.name) of_this_model.push_back(body);

@@ -11,11 +11,11 @@
 #include "tests/support/png_maker.h"
 
 namespace lagomorph::render {
-namespace {
+namespace png_read_test {
 
-using tests::make_png;
-using tests::noise_samples;
-using tests::PngSpec;
+using lagomorph::tests::make_png;
+using lagomorph::tests::noise_samples;
+using lagomorph::tests::PngSpec;
 
 std::vector<unsigned> samples_of(const Pixels& pixels) {
   return std::visit([](const auto& s) { return std::vector<unsigned>(s.begin(), s.end()); }, pixels.samples);
@@ -224,5 +224,5 @@ TEST(PngRead, HeaderAloneTellsTheKind) {
   EXPECT_TRUE(header.interlaced);
 }
 
-}  // namespace
+}  // namespace png_read_test
 }  // namespace lagomorph::render

@@ -5,7 +5,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace rigid_motion_test {
 
 VecX at_rest(const TetMesh& mesh) { return Eigen::Map<const VecX>(mesh.X.data(), mesh.X.size()); }
 
@@ -51,5 +51,5 @@ TEST(RigidMotion, OfVerticesOnALineIsFinite) {
   EXPECT_LT((rigid_part(q, dq) - dq).norm(), 1e-13);
 }
 
-}  // namespace
+}  // namespace rigid_motion_test
 }  // namespace lagomorph::sim

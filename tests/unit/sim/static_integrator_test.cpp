@@ -8,7 +8,7 @@
 #include "tests/unit/sim/motion.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace static_integrator_test {
 
 double distance(const VecX& a, const VecX& b) { return (a - b).cwiseAbs().maxCoeff(); }
 
@@ -150,5 +150,5 @@ TEST(Static, FindsItsWayHomeWithoutPins) {
   }
 }
 
-}  // namespace
+}  // namespace static_integrator_test
 }  // namespace lagomorph::sim

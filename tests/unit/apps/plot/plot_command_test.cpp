@@ -5,7 +5,7 @@
 
 /// `lagomorph plot` as scripts see it, and the columns that it knows.
 namespace lagomorph::tests {
-namespace {
+namespace plot_command_test {
 
 using Json = nlohmann::json;
 using PlotCommand = ProgramRun;
@@ -21,7 +21,7 @@ std::vector<std::string> names_of(const std::vector<apps::NamedFigure>& figures)
 }
 
 TEST(RunFigures, PutColumnsOfOneKindTogetherAndStrangersAlone) {
-  const apps::Table table = apps::read_table(
+  const apps::NumberTable table = apps::read_table(
       "frame,time,kinetic,total,mass,momentum_x,momentum_y,angular_momentum_z,min_J,work_pins,strange_thing\n"
       "0,0,1,2,3,4,5,6,7,8,9\n1,0.5,1,2,3,4,5,6,7,,nan\n",
       "energy.csv");
@@ -93,5 +93,5 @@ TEST_F(PlotCommand, SaysWhatIsWrong) {
   EXPECT_FALSE(std::filesystem::exists(at("run/plot")));
 }
 
-}  // namespace
+}  // namespace plot_command_test
 }  // namespace lagomorph::tests
