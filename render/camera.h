@@ -64,6 +64,10 @@ public:
   Mat4 projection(float near, float far) const;
   /// Depth of a world point: metres along the view axis from the camera's plane.
   float depth(const Vec3& world) const { return (world - position_).dot(forward_); }
+  /// The same of a point on a ray of this camera at a distance [m].
+  float depth(const Ray& ray, double distance) const {
+    return static_cast<float>(distance * ray.direction.cast<double>().dot(forward_.cast<double>()));
+  }
   /// World point to the picture, in pixels from its top left corner. Meaningless behind a perspective camera.
   Vec2 project(const Vec3& world) const;
   /// Size of a pixel's footprint at a depth [m].

@@ -36,13 +36,13 @@ std::vector<Cell> cells_of(const Tile& tile) {
 
 /// Adds samples from..to-1 to the cells' last round.
 void sample_round(PathTracer& tracer, const FrameSamples& numbers, const std::vector<Cell*>& active, int from,
-                  int to) {
+                  int to, TileMeans* means) {
   std::vector<PathTracer::PixelSample> pending;
   std::vector<Pixel*> owners;
   std::vector<Color> radiance;
   const auto flush = [&] {
     radiance.resize(pending.size());
-    tracer.trace(pending, numbers, radiance);
+    tracer.trace(pending, numbers, radiance, means);
     for (std::size_t i = 0; i < pending.size(); ++i) owners[i]->last += radiance[i].cast<double>();
     pending.clear();
     owners.clear();
@@ -79,14 +79,15 @@ bool is_done(const Cell& cell, int before, int last, double threshold) {
 }  // namespace
 
 void trace_adaptively(PathTracer& tracer, const Tile& tile, const FrameSamples& numbers,
-                      const AdaptiveSampling& s, int picture_width, float* color, float* counts) {
+                      const AdaptiveSampling& s, int picture_width, float* color, float* counts,
+                      TileMeans* means) {
   std::vector<Cell> cells = cells_of(tile);
   std::vector<Cell*> active;
   for (Cell& cell : cells) active.push_back(&cell);
   int before = 0;
   int next = std::min((s.min_samples + 1) / 2, s.max_samples);
   while (!active.empty()) {
-    sample_round(tracer, numbers, active, before, next);
+    sample_round(tracer, numbers, active, before, next, means);
     const bool last = next == s.max_samples;
     std::erase_if(active, [&](Cell* cell) {
       const bool done = last || (before > 0 && is_done(*cell, before, next - before, s.threshold));

@@ -19,8 +19,9 @@ struct AdaptiveSampling {
 /// threshold, whatever its neighbours take. Stopping where the noise happens to look small darkens a picture
 /// a little: by far less than the threshold.
 ///
-/// `color` (3 floats a pixel) and `counts` (1, or nullptr) are of the whole picture.
+/// `color` (3 floats a pixel) and `counts` (1, or nullptr) are of the whole picture. `means`, of the same
+/// tile, takes every sample; nullptr: none is kept.
 void trace_adaptively(PathTracer&, const Tile&, const FrameSamples&, const AdaptiveSampling&,
-                      int picture_width, float* color, float* counts);
+                      int picture_width, float* color, float* counts, TileMeans* means = nullptr);
 
 }  // namespace lagomorph::render::path

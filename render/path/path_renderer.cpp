@@ -13,6 +13,7 @@
 #include "render/path/filter.h"
 #include "render/path/path_tracer.h"
 #include "render/path/scene_geometry.h"
+#include "render/path/tile_means.h"
 #include "render/path/tile_statistics.h"
 
 namespace lagomorph::render {
@@ -91,7 +92,11 @@ public:
         std::fill(values.begin(), values.end(), static_cast<float>(settings_.samples));
         counts = values.data();
       }
-      draw_color(camera, frame.frame, image.add("color", 3), statistics, counts);
+      const path::MeanChannels means = {.albedo = wanted(image, denoising_albedo_channel),
+                                        .normal = wanted(image, denoising_normal_channel),
+                                        .depth = wanted(image, denoising_depth_channel),
+                                        .variance = wanted(image, variance_channel)};
+      draw_color(camera, frame.frame, image.add("color", 3), statistics, counts, means);
       if (wants(depth_channel)) draw_depth(camera, image.add(depth_channel, 1));
       if (wants(body_id_channel)) draw_body_ids(camera, image.add(body_id_channel, 1));
     });
@@ -116,6 +121,11 @@ private:
            settings_.channels.end();
   }
 
+  /// The values of a channel, which is added; nullptr where it is not wanted.
+  float* wanted(Image& image, const char* channel) const {
+    return wants(channel) ? image.add(channel, channel_kind(channel).components).data() : nullptr;
+  }
+
   template <class Body>
   void for_tiles(const Camera& camera, const Body& body) const {
     const int columns = (camera.width() + tile_size - 1) / tile_size;
@@ -133,9 +143,9 @@ private:
         tbb::simple_partitioner());
   }
 
-  /// And the channels of statistics and sample counts where they are not nullptr.
+  /// And the channels of statistics, sample counts and means where they are not nullptr.
   void draw_color(const Camera& camera, int frame, std::vector<float>& color, float* statistics,
-                  float* counts) const {
+                  float* counts, const path::MeanChannels& mean_channels) const {
     const path::AdaptiveSampling adaptive{settings_.path.min_samples, settings_.samples,
                                           static_cast<double>(settings_.path.noise_threshold)};
     const path::FrameSamples numbers(settings_.path.seed, frame, settings_.samples);
@@ -143,15 +153,20 @@ private:
       return path::PathTracer(*geometry_, *shading_, camera, filter_, settings_.samples, settings_.path);
     });
     for_tiles(camera, [&](const path::Tile& tile) {
+      std::optional<path::TileMeans> means;
+      if (mean_channels.any()) means.emplace(tile, mean_channels, camera.width());
+      path::TileMeans* kept = means ? &*means : nullptr;
       if (adaptive.threshold > 0.0) {
-        path::trace_adaptively(tracers.local(), tile, numbers, adaptive, camera.width(), color.data(),
-                               counts);
+        path::trace_adaptively(tracers.local(), tile, numbers, adaptive, camera.width(), color.data(), counts,
+                               kept);
+        if (means) means->write();
         return;
       }
       std::optional<path::TileStatistics> cells;
       if (statistics != nullptr) cells.emplace(tile, settings_.samples);
-      tracers.local().trace(tile, numbers, color.data(), cells ? &*cells : nullptr);
+      tracers.local().trace(tile, numbers, color.data(), cells ? &*cells : nullptr, kept);
       if (cells) cells->write(camera.width(), statistics);
+      if (means) means->write();
     });
   }
 
@@ -189,10 +204,8 @@ private:
   }
 
   void draw_depth(const Camera& camera, std::vector<float>& depth) const {
-    draw_seen(camera, depth, [&](const Ray& ray, const path::MeshHit&, double t) {
-      // The ray's length along the view axis; exactly its length where it is orthographic.
-      return static_cast<float>(t * ray.direction.cast<double>().dot(camera.forward().cast<double>()));
-    });
+    draw_seen(camera, depth,
+              [&](const Ray& ray, const path::MeshHit&, double t) { return camera.depth(ray, t); });
   }
 
   void draw_body_ids(const Camera& camera, std::vector<float>& ids) const {

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "render/albedo.h"
 #include "render/path/microfacet.h"
+#include "render/path/tile_means.h"
 #include "render/path/tile_statistics.h"
 
 namespace lagomorph::render::path {
@@ -46,8 +48,12 @@ float power_heuristic(float pdf, float other) {
 
 Shading::Shading(const RenderScene& scene)
     : ground(scene.ground), sky(scene.sky), background(scene.background) {
-  for (const Mesh& mesh : scene.meshes) brdfs.emplace_back(mesh.material);
-  brdfs.emplace_back(scene.ground.material);
+  const auto add = [&](const Material& material) {
+    brdfs.emplace_back(material);
+    albedos.push_back(albedo(material));
+  };
+  for (const Mesh& mesh : scene.meshes) add(mesh.material);
+  add(scene.ground.material);
   float total = 0.0F;
   for (const AreaLight& light : scene.lights) {
     const RectangleLight rectangle(light);
@@ -102,7 +108,7 @@ PathTracer::PathTracer(const SceneGeometry& geometry, const Shading& shading, co
 }
 
 void PathTracer::trace(const Tile& tile, const FrameSamples& numbers, float* color,
-                       TileStatistics* statistics) {
+                       TileStatistics* statistics, TileMeans* means) {
   const auto width = static_cast<std::uint32_t>(tile.x1 - tile.x0);
   const std::uint64_t total =
       static_cast<std::uint64_t>(width) * static_cast<std::uint32_t>(tile.y1 - tile.y0) * samples_;
@@ -114,7 +120,7 @@ void PathTracer::trace(const Tile& tile, const FrameSamples& numbers, float* col
       return std::array<int, 2>{tile.x0 + static_cast<int>(pixel % width),
                                 tile.y0 + static_cast<int>(pixel / width)};
     };
-    begin_batch(count);
+    begin_batch(count, means != nullptr);
     for (std::uint32_t lane = 0; lane < count; ++lane) {
       const auto [x, y] = place(first + lane);
       begin_path(lane, x, y, numbers.path(x, y, static_cast<int>((first + lane) % samples_)));
@@ -125,6 +131,7 @@ void PathTracer::trace(const Tile& tile, const FrameSamples& numbers, float* col
       const auto [x, y] = place(first + lane);
       if (statistics != nullptr)
         statistics->add(x, y, static_cast<int>((first + lane) % samples_), radiance_[lane]);
+      if (means != nullptr) means->add(x, y, radiance_[lane], first_hits_[lane]);
       if ((first + lane + 1) % samples_ != 0) continue;
       float* out = color + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width()) +
                                 static_cast<std::size_t>(x));
@@ -135,24 +142,27 @@ void PathTracer::trace(const Tile& tile, const FrameSamples& numbers, float* col
 }
 
 void PathTracer::trace(std::span<const PixelSample> of, const FrameSamples& numbers,
-                       std::span<Color> radiance) {
+                       std::span<Color> radiance, TileMeans* means) {
   for (std::size_t first = 0; first < of.size(); first += batch_size) {
     const std::size_t count = std::min(batch_size, of.size() - first);
-    begin_batch(count);
+    begin_batch(count, means != nullptr);
     for (std::uint32_t lane = 0; lane < count; ++lane) {
       const PixelSample& s = of[first + lane];
       begin_path(lane, s.x, s.y, numbers.path(s.x, s.y, s.sample));
     }
     finish_batch();
+    for (std::uint32_t lane = 0; means != nullptr && lane < count; ++lane)
+      means->add(of[first + lane].x, of[first + lane].y, radiance_[lane], first_hits_[lane]);
     std::copy(radiance_.begin(), radiance_.end(), radiance.begin() + static_cast<std::ptrdiff_t>(first));
   }
 }
 
-void PathTracer::begin_batch(std::size_t count) {
+void PathTracer::begin_batch(std::size_t count, bool first_hits) {
   rays_.clear();
   paths_.clear();
   radiance_.assign(count, Color::Zero());
   times_.clear();
+  first_hits_.assign(first_hits ? count : 0, FirstHit{});
 }
 
 /// Lanes begin in order.
@@ -198,6 +208,8 @@ void PathTracer::arrive(std::uint32_t depth) {
     Ahead ahead = look(ray, hits_[i]);
     add_light(path.lane, depth == 0 ? seen_by_camera(ray, ahead)
                                     : path.throughput * light_met(ray, path, depth - 1, ahead));
+    const bool keep = depth == 0 && !first_hits_.empty();
+    if (keep) first_hits_[path.lane].on_light = ahead.on_light;
     if (depth > bounces_ + path.clear) continue;
     float share = 1.0F;
     if (ahead.ground < SceneGeometry::never) {
@@ -213,11 +225,18 @@ void PathTracer::arrive(std::uint32_t depth) {
     indirect_[path.lane] = depth > path.clear ? 1 : 0;
     if (ahead.ground < SceneGeometry::never) {
       absorb(path, path.inside, ahead.ground);
-      begin_vertex(geometry_.arrive_at_ground(ray, ahead.ground), ray, path, shading_.ground_brdf(), share);
+      const SurfacePoint at = geometry_.arrive_at_ground(ray, ahead.ground);
+      if (keep)
+        keep_first_hit(path.lane, at, shading_.albedos.back(), camera_.depth(ray, ahead.ground), share);
+      begin_vertex(at, ray, path, shading_.ground_brdf(), share);
     } else if (ahead.on_mesh) {
       const SurfacePoint at = geometry_.arrive(ray, hits_[i], ahead.mesh);
       const std::optional<Color> color = geometry_.color_at(hits_[i], ahead.mesh);
       const Bsdf& bsdf = shading_.brdfs[hits_[i].mesh];
+      if (keep) {
+        keep_first_hit(path.lane, at, color.value_or(shading_.albedos[hits_[i].mesh]),
+                       camera_.depth(ray, ahead.mesh.t), 1.0F);
+      }
       // A ray that comes to a back side without having gone in, as from an eye within a body, was in it.
       const bool from_within = path.inside == nullptr && at.inside && bsdf.transmits();
       absorb(path, from_within ? &bsdf.absorption() : path.inside, ahead.mesh.t);
@@ -251,6 +270,7 @@ Color PathTracer::seen_by_camera(const Ray& ray, Ahead& ahead) const {
     const double distance = l.intersect(ray).distance;
     if (distance <= 0.0 || distance >= nearest) continue;
     nearest = distance;
+    ahead.on_light = true;
     light = l.radiance();
   }
   if (nearest < ahead.mesh.t) {
@@ -291,6 +311,15 @@ Color PathTracer::light_met(const Ray& ray, const Path& path, std::uint32_t from
     }
   }
   return light;
+}
+
+void PathTracer::keep_first_hit(std::uint32_t lane, const SurfacePoint& at, const Color& albedo, float depth,
+                                float opacity) {
+  FirstHit& hit = first_hits_[lane];
+  hit.albedo = albedo;
+  hit.normal = at.normal;
+  hit.depth = depth;
+  hit.opacity = opacity;
 }
 
 void PathTracer::begin_vertex(const SurfacePoint& at, const Ray& ray, const Path& path, const Bsdf& brdf,

@@ -20,12 +20,14 @@
 namespace lagomorph::render::path {
 
 class TileStatistics;
+class TileMeans;
 
 /// What paths need to know of a scene besides its geometry.
 struct Shading {
   explicit Shading(const RenderScene&);
 
-  std::vector<Bsdf> brdfs;  // a mesh each, then the ground's
+  std::vector<Bsdf> brdfs;     // a mesh each, then the ground's
+  std::vector<Color> albedos;  // likewise
   std::vector<RectangleLight> lights;
   std::vector<float> pick;  // probability of each light where one is picked
   std::vector<SunLight> suns;
@@ -39,6 +41,15 @@ struct Shading {
   Color open_view(const Vec3& direction) const;
 
   const Bsdf& ground_brdf() const { return brdfs.back(); }
+};
+
+/// What the camera sees first along a path.
+struct FirstHit {
+  Color albedo = Color::Zero();
+  Vec3 normal = Vec3::Zero();  // unit shading normal, on the camera's side
+  float depth = 0.0F;          // along the view axis [m]
+  float opacity = 0.0F;        // of that surface: less than 1 where the ground fades, 0 where nothing is
+  bool on_light = false;       // a visible light is seen, behind that surface or alone
 };
 
 /// A rectangle of pixels [x0, x1) x [y0, y1).
@@ -63,14 +74,17 @@ public:
              const PathSettings&);
 
   /// Mean radiance of the tile's pixels into `color`, 3 floats a pixel of the whole picture. Sums go in the
-  /// order of the samples. `statistics`, of the same tile, takes every sample; nullptr: none is kept.
-  void trace(const Tile&, const FrameSamples&, float* color, TileStatistics* statistics = nullptr);
+  /// order of the samples. `statistics` and `means`, of the same tile, take every sample; nullptr: none is
+  /// kept.
+  void trace(const Tile&, const FrameSamples&, float* color, TileStatistics* statistics = nullptr,
+             TileMeans* means = nullptr);
 
   struct PixelSample {
     int x, y, sample;
   };
-  /// The radiance of single samples, one each.
-  void trace(std::span<const PixelSample>, const FrameSamples&, std::span<Color> radiance);
+  /// The radiance of single samples, one each. `means` as above.
+  void trace(std::span<const PixelSample>, const FrameSamples&, std::span<Color> radiance,
+             TileMeans* means = nullptr);
 
 private:
   struct Path {
@@ -105,9 +119,10 @@ private:
     double ground;                    // distance of the ground before the mesh, or never
     float opacity;                    // of the ground there; 0 when never
     bool on_mesh;
+    bool on_light = false;  // a visible light, as the camera sees it
   };
 
-  void begin_batch(std::size_t count);
+  void begin_batch(std::size_t count, bool first_hits);
   void begin_path(std::uint32_t lane, int x, int y, const PathSamples&);
   void finish_batch();
   void trace_batch(std::uint32_t depth);
@@ -115,6 +130,8 @@ private:
   Ahead look(const Ray&, const MeshHit&) const;
   Color seen_by_camera(const Ray&, Ahead&) const;
   Color light_met(const Ray&, const Path&, std::uint32_t from, const Ahead&) const;
+  void keep_first_hit(std::uint32_t lane, const SurfacePoint&, const Color& albedo, float depth,
+                      float opacity);
   void begin_vertex(const SurfacePoint&, const Ray&, const Path&, const Bsdf&, float share,
                     const Color* base_color = nullptr);
   static void absorb(Path&, const Absorption*, double distance);
@@ -153,8 +170,9 @@ private:
   std::vector<Color> shadow_light_;  // what arrives when nothing is in the way
   std::vector<std::uint32_t> shadow_lanes_;
   std::vector<std::uint8_t> blocked_;
-  std::vector<Color> radiance_;  // of each lane
-  std::vector<float> times_;     // of each lane, where rays have them
+  std::vector<Color> radiance_;       // of each lane
+  std::vector<float> times_;          // of each lane, where rays have them
+  std::vector<FirstHit> first_hits_;  // of each lane, where they are wanted
 };
 
 }  // namespace lagomorph::render::path

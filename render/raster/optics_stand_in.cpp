@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
+#include "render/albedo.h"
+
 namespace lagomorph::render::raster {
 
 Material optics_stand_in(const Material& m) {
   Material drawn = m;
-  const float cloudy = (1.0F - m.metallic) * m.subsurface;
-  const float clear = (1.0F - m.metallic) * m.transmission;
-  drawn.base_color += cloudy * (m.subsurface_color - drawn.base_color);
-  drawn.base_color += clear * (m.absorption_color - drawn.base_color);
+  drawn.base_color = albedo(m);
   drawn.roughness += m.coat * (std::min(m.roughness, m.coat_roughness) - m.roughness);
   return drawn;
 }

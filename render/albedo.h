@@ -1,0 +1,12 @@
+#pragma once
+
+#include "render/render_scene.h"
+
+namespace lagomorph::render {
+
+/// The colour by which a material is told from others in the channels of albedo: its base colour, a metal's
+/// reflectance; of a dielectric, as much as it has a cloudy inside that one's colour, and over that, as much
+/// as it has a clear inside, what that lets through.
+Color albedo(const Material&);
+
+}  // namespace lagomorph::render
