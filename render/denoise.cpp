@@ -7,7 +7,6 @@
 
 #include <Eigen/Cholesky>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include "render/error.h"
 
@@ -69,7 +68,7 @@ void require(bool ok, const char* what) {
 void check(const NoisyPicture& p, const DenoiseSettings& s) {
   require(p.width > 0 && p.height > 0, "the picture is empty");
   const auto pixels = static_cast<std::size_t>(p.width) * static_cast<std::size_t>(p.height);
-  require(p.color.size() == 3 * pixels && p.variance.size() == pixels && p.albedo.size() == 3 * pixels &&
+  require(p.color.size() == 3 * pixels && p.variance.size() == 3 * pixels && p.albedo.size() == 3 * pixels &&
               p.normal.size() == 3 * pixels && p.depth.size() == pixels,
           "colour, variance, albedo, normal and depth must be of one size");
   require(s.radius >= 1 && s.radius <= 32, "radius must be in 1 .. 32");
@@ -103,8 +102,10 @@ Guide make_guide(const NoisyPicture& p, std::span<const float> color, float vari
     float sum = 0.0F;
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i)
-        sum += p.variance[at(std::clamp(x + i, 0, p.width - 1), std::clamp(y + j, 0, p.height - 1))];
-    return variance_share * sum / 9.0F;
+        for (std::size_t c = 0; c < 3; ++c)
+          sum +=
+              p.variance[3 * at(std::clamp(x + i, 0, p.width - 1), std::clamp(y + j, 0, p.height - 1)) + c];
+    return variance_share * sum / 27.0F;
   });
   const auto tolerance = make([&](int x, int y) {
     const float* c = &color[3 * at(x, y)];
@@ -301,30 +302,27 @@ private:
 };
 
 std::vector<float> run(const Guide& guide, const std::array<Plane, 3>& noisy, const NoisyPicture& p,
-                       const DenoiseSettings& settings, int threads) {
+                       const DenoiseSettings& settings) {
   std::vector<float> found(p.color.size());
   const Denoiser denoiser(guide, noisy, p.width, p.height, settings);
   const int blocks = (p.height + block_rows - 1) / block_rows;
-  tbb::task_arena arena(std::max(threads, 1));
-  arena.execute([&] {
-    tbb::parallel_for(0, blocks, [&](int k) {
-      Scratch scratch(p.width, settings.patch_radius);
-      denoiser.find_block(k * block_rows, scratch, found);
-    });
+  tbb::parallel_for(0, blocks, [&](int k) {
+    Scratch scratch(p.width, settings.patch_radius);
+    denoiser.find_block(k * block_rows, scratch, found);
   });
   return found;
 }
 
 }  // namespace
 
-std::vector<float> denoise(const NoisyPicture& p, const DenoiseSettings& settings, int threads) {
+std::vector<float> denoise(const NoisyPicture& p, const DenoiseSettings& settings) {
   check(p, settings);
   const int border = settings.radius + settings.patch_radius;
   const Guide first = make_guide(p, p.color, 1.0F, border);
-  const std::vector<float> once = run(first, first.color, p, settings, threads);
+  const std::vector<float> once = run(first, first.color, p, settings);
   // Once more, the squares compared in what was found: weights that the noise has no say in.
   const Guide second = make_guide(p, once, residual_share, border);
-  return run(second, first.color, p, settings, threads);
+  return run(second, first.color, p, settings);
 }
 
 }  // namespace lagomorph::render

@@ -10,7 +10,7 @@ namespace lagomorph::render {
 struct NoisyPicture {
   int width = 0, height = 0;
   std::span<const float> color;     // 3 a pixel, mean of its samples; finite
-  std::span<const float> variance;  // 1 a pixel, of that mean: of R, G and B on average; >= 0
+  std::span<const float> variance;  // 3 a pixel, of that mean; finite, >= 0
   std::span<const float> albedo;    // 3 a pixel, of the surface that is seen, mean of its samples
   std::span<const float> normal;    // 3 a pixel, likewise; 0 where nothing is
   std::span<const float> depth;     // 1 a pixel [m]; +inf where nothing is
@@ -28,8 +28,8 @@ struct DenoiseSettings {
 /// window weighs by how alike the two pixels' surroundings are, noise apart (non-local means with the
 /// variance taken off, [Rousselle et al. 2012]), and by how near their normals, albedos and depths are.
 ///
-/// Where the variance is 0 the picture stays nearly what it is. `threads` never changes a bit. Throws
-/// SettingsError for sizes that do not agree and values out of range.
-std::vector<float> denoise(const NoisyPicture&, const DenoiseSettings&, int threads);
+/// Where the variance is 0 the picture stays nearly what it is. The number of threads never changes a bit.
+/// Throws SettingsError for sizes that do not agree and values out of range.
+std::vector<float> denoise(const NoisyPicture&, const DenoiseSettings&);
 
 }  // namespace lagomorph::render

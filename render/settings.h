@@ -23,6 +23,7 @@ struct PathSettings {
   float filter_radius = 1.5F;              // [pixels], in (0, 4]
   float noise_threshold = 0.0F;  // of adaptive sampling, see path/adaptive.h; 0: every pixel takes `samples`
   int min_samples = 16;          // of adaptive sampling, a pixel, 1 .. 65536
+  bool denoise = false;          // the picture, see denoise.h; needs 2 samples or more
 };
 
 struct RenderSettings {

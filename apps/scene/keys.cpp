@@ -303,6 +303,11 @@ void visit_path(render::PathSettings& p, KeyVisitor& v) {
         &p.noise_threshold);
   v.key({.name = "min_samples", .bounds = between(1, 65536), .meaning = "of adaptive sampling, a pixel"},
         &p.min_samples);
+  v.key(
+      {.name = "denoise",
+       .meaning = "smooths the noise away, guided by normal, albedo, depth and variance; needs 2 samples or "
+                  "more. Not for goldens: what is left of the noise is no longer that of each pixel alone"},
+      &p.denoise);
 }
 
 void visit_render(render::RenderSettings& r, KeyVisitor& v) {

@@ -8,6 +8,7 @@
 #include <tbb/task_arena.h>
 
 #include "render/backends.h"
+#include "render/denoise.h"
 #include "render/error.h"
 #include "render/path/adaptive.h"
 #include "render/path/filter.h"
@@ -41,6 +42,8 @@ public:
     check_range("render.path.min_samples", settings.path.min_samples, 1, 65536);
     if (!(settings.path.noise_threshold >= 0.0F))
       throw SettingsError("render.path.noise_threshold must be >= 0");
+    if (settings.path.denoise && settings.samples < 2)
+      throw SettingsError("render.path.denoise needs render.samples >= 2, of which it learns the noise");
     if (settings.path.noise_threshold > 0.0F && wants(statistics_channel)) {
       throw SettingsError("render.channels: '" + std::string(statistics_channel) +
                           "' needs the same samples everywhere: render.path.noise_threshold = 0");
@@ -92,11 +95,31 @@ public:
         std::fill(values.begin(), values.end(), static_cast<float>(settings_.samples));
         counts = values.data();
       }
-      const path::MeanChannels means = {.albedo = wanted(image, denoising_albedo_channel),
-                                        .normal = wanted(image, denoising_normal_channel),
-                                        .depth = wanted(image, denoising_depth_channel),
-                                        .variance = wanted(image, variance_channel)};
-      draw_color(camera, frame.frame, image.add("color", 3), statistics, counts, means);
+      // The denoiser's guides are drawn whether or not they are asked for.
+      Image guides(camera.width(), camera.height());
+      const auto mean = [&](const char* channel) {
+        float* const asked_for = wanted(image, channel);
+        return asked_for != nullptr || !settings_.path.denoise
+                   ? asked_for
+                   : guides.add(channel, channel_kind(channel).components).data();
+      };
+      const path::MeanChannels means = {.albedo = mean(denoising_albedo_channel),
+                                        .normal = mean(denoising_normal_channel),
+                                        .depth = mean(denoising_depth_channel),
+                                        .variance = mean(variance_channel)};
+      std::vector<float>& color = image.add(color_channel, 3);
+      draw_color(camera, frame.frame, color, statistics, counts, means);
+      if (settings_.path.denoise) {
+        const std::size_t pixels = color.size() / 3;
+        color = denoise({.width = camera.width(),
+                         .height = camera.height(),
+                         .color = color,
+                         .variance = {means.variance, 3 * pixels},
+                         .albedo = {means.albedo, 3 * pixels},
+                         .normal = {means.normal, 3 * pixels},
+                         .depth = {means.depth, pixels}},
+                        {});
+      }
       if (wants(depth_channel)) draw_depth(camera, image.add(depth_channel, 1));
       if (wants(body_id_channel)) draw_body_ids(camera, image.add(body_id_channel, 1));
     });
