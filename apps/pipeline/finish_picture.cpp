@@ -21,11 +21,13 @@ CaptionValues caption_values(const SceneDesc& scene, int frame, const StateRecor
 
 }  // namespace
 
-render::Picture finish_picture(const render::Image& image, const SceneDesc& scene,
-                               const SurfaceFields& fields, int frame, const StateRecord& state) {
-  render::Picture picture = render::tone_map(image, scene.render.tone_curve, scene.render.exposure);
+render::Picture finish_picture(const RenderedFrame& frame, const SceneDesc& scene,
+                               const SurfaceFields& fields, const Overlays& overlays) {
+  render::Picture picture = render::tone_map(frame.image, scene.render.tone_curve, scene.render.exposure);
+  overlays.draw(picture, frame.camera, frame.state);
   draw_color_bars(picture, fields.bars());
-  draw_caption(picture, caption_text(scene.caption.text, caption_values(scene, frame, state)),
+  draw_caption(picture,
+               caption_text(scene.caption.text, caption_values(scene, frame.state.frame, frame.told)),
                scene.caption.place);
   return picture;
 }

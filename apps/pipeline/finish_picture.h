@@ -1,14 +1,25 @@
 #pragma once
 
+#include "apps/pipeline/overlays.h"
 #include "apps/pipeline/surface_fields.h"
 #include "apps/run/record.h"
 #include "apps/scene/scene_desc.h"
+#include "render/camera.h"
 #include "render/color.h"
+#include "render/image.h"
+#include "sim/model.h"
 
 namespace lagomorph::apps {
 
-/// The picture of a rendered frame: tone curve, colour bars, caption. `state` is what is told of the frame's.
-render::Picture finish_picture(const render::Image&, const SceneDesc&, const SurfaceFields&, int frame,
-                               const StateRecord& state);
+/// A frame as a renderer drew it.
+struct RenderedFrame {
+  const render::Image& image;
+  const render::Camera& camera;
+  const sim::State& state;
+  const StateRecord& told;  // of the state
+};
+
+/// Its picture: tone curve, overlays, colour bars, caption.
+render::Picture finish_picture(const RenderedFrame&, const SceneDesc&, const SurfaceFields&, const Overlays&);
 
 }  // namespace lagomorph::apps

@@ -13,6 +13,7 @@
 
 #include "apps/file_io.h"
 #include "apps/pipeline/build_scene.h"
+#include "apps/pipeline/overlays.h"
 #include "apps/pipeline/pipeline.h"
 #include "apps/pipeline/stop.h"
 #include "apps/pipeline/stopwatch.h"
@@ -158,12 +159,14 @@ PipelineResult simulate_then_draw(Production& p, const sim::Model& model, Surfac
 /// there.
 std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress& progress) {
   const sim::Model model = build_model(p.scene, progress);
-  const std::vector<sim::Surface> surfaces = build_surfaces(p.scene, model, progress);
+  const std::vector<sim::Surface> surfaces = drawn_surfaces(p.scene, model, progress);
   SurfaceFields fields(p.scene, model, surfaces);
+  const Overlays overlays(p.scene, model, surfaces);
   if (p.renderer) {
     const render::RenderScene drawn = build_render_scene(p.scene, model, surfaces);
     for (const std::string& remark : render::renderer_remarks(p.scene.render, p.scene.camera, drawn))
       progress.note(remark);
+    for (const std::string& remark : overlay_remarks(p.scene)) progress.note(remark);
     p.renderer->set_scene(drawn);
   }
   const auto integrator = sim::make_integrator(p.scene.time, p.scene.solver, model);
@@ -184,8 +187,8 @@ std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress
     if (p.share) p.lock->take(RunLock::Kind::shared);
   }
   const Pipeline run = [&](const std::vector<FrameJob>& jobs) {
-    return run_pipeline({p.scene, model, surfaces, fields, *integrator, p.renderer.get(), p.paths, p.identity,
-                         p.contents.matching, jobs, p.threads, p.options.log_newton},
+    return run_pipeline({p.scene, model, surfaces, fields, overlays, *integrator, p.renderer.get(), p.paths,
+                         p.identity, p.contents.matching, jobs, p.threads, p.options.log_newton},
                         progress);
   };
   if (p.renderer && fields.is_automatic()) return simulate_then_draw(p, model, fields, run, progress);
