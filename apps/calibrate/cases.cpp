@@ -53,8 +53,12 @@ public:
       frames_ = {all.first, (all.first + all.last) / 2, all.last};
     }
     for (const int frame : frames_) states_.require({frame, frame});
-    if (!fields_.is_automatic()) return;
-    for (const auto& [frame, record] : states_.records()) fields_.see(state(frame).q);
+    if (!needs_sequence(scene_)) return;
+    for (const auto& [frame, record] : states_.records()) {
+      const sim::VecX q = state(frame).q;
+      if (fields_.is_automatic()) fields_.see(q);
+      overlays_.see(frame, record, q);
+    }
   }
 
   const std::set<int>& frames() const { return frames_; }

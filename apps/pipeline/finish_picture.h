@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <map>
+#include <string>
+
 #include "apps/pipeline/overlays.h"
 #include "apps/pipeline/surface_fields.h"
 #include "apps/run/record.h"
@@ -19,7 +23,11 @@ struct RenderedFrame {
   const StateRecord& told;  // of the state
 };
 
-/// Its picture: tone curve, overlays, colour bars, caption.
+/// The ranges that the pictures of a sequence have in common: of fields by the body's name, of overlays by
+/// theirs.
+std::map<std::string, std::array<double, 2>> picture_ranges(const SurfaceFields&, const Overlays&);
+
+/// Its picture: tone curve, overlays, colour bars, diagram, caption.
 render::Picture finish_picture(const RenderedFrame&, const SceneDesc&, const SurfaceFields&, const Overlays&);
 
 }  // namespace lagomorph::apps

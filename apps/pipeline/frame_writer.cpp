@@ -76,7 +76,7 @@ PictureRecord FrameWriter::write_picture(const DrawnFrame& drawn, const StateRec
   record.sha256 = sha256(png);
   record.made_by = identity_.picture_hash();
   if (scene_.render.backend == "path") record.clamp = static_cast<double>(scene_.render.path.clamp);
-  record.ranges = fields_.ranges();
+  record.ranges = picture_ranges(fields_, overlays_);
   for (const std::string& name : scene_.render.channels) {
     const render::Channel* channel = image.find(name);
     if (channel == nullptr) {

@@ -198,6 +198,9 @@ void visit_body(BodyDesc& b, KeyVisitor& v) {
   v.one({.name = "look", .meaning = "how the body is drawn"}, b, visit_body_look);
   v.one({.name = "wireframe", .meaning = "lines along its edges, over the picture"}, b.wireframe,
         visit_wireframe);
+  v.one({.name = "ghost", .meaning = "its rest shape, over the picture"}, b.ghost, visit_ghost);
+  v.one({.name = "labels", .meaning = "numbers of its vertices and faces, where they are seen"}, b.labels,
+        visit_labels);
   v.list(
       {.name = "pin",
        .meaning = "vertices held where they are at the start, or driven; several selectors select the union"},
@@ -486,6 +489,11 @@ void visit_scene(SceneDesc& s, KeyVisitor& v) {
               .meaning = "a plane that opens the bodies: whole tets on one side of it are drawn, the same in "
                          "all frames, instead of surfaces"},
              s.clip, visit_clip);
+  v.one({.name = "glyphs", .meaning = "signs of what holds, pulls and moves the bodies, over the picture"},
+        s.glyphs, visit_glyphs);
+  v.one({.name = "energy_plot",
+         .meaning = "a diagram of the energies up to the frame, over the picture; its axes span all frames"},
+        s.energy_plot, visit_energy_plot);
   v.one({.name = "background", .meaning = "what the camera sees where nothing is"}, s.background,
         visit_background);
 }

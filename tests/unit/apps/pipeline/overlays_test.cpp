@@ -48,7 +48,7 @@ struct Bar {
 
 TEST(Overlays, NoneByDefault) {
   EXPECT_EQ(Bar({}).pixels(), 0);
-  EXPECT_TRUE(overlay_remarks(Bar({}).scene).empty());
+  EXPECT_TRUE(Bar({}).overlays.remarks().empty());
 }
 
 TEST(Overlays, WireframesOfSurfaceAndTets) {
@@ -76,8 +76,8 @@ TEST(Overlays, QuadraticTetsHaveTheLinesOfLinearOnes) {
 TEST(Overlays, ABodyWithoutFillIsNotDrawn) {
   const Bar bar({"body.0.surface.fill=false"});
   EXPECT_TRUE(build_render_scene(bar.scene, bar.model, bar.surfaces).meshes.at(0).triangles.empty());
-  ASSERT_EQ(overlay_remarks(bar.scene).size(), 1U);
-  EXPECT_NE(overlay_remarks(bar.scene)[0].find("nothing of 'bar' is drawn"), std::string::npos);
+  ASSERT_EQ(bar.overlays.remarks().size(), 1U);
+  EXPECT_NE(bar.overlays.remarks()[0].find("the surface of 'bar' is not drawn"), std::string::npos);
 }
 
 TEST(Overlays, AFlippedSurfaceIsInsideOut) {

@@ -57,7 +57,7 @@ TEST(WrongScene, Keys) {
              "azimuth, turbidity"},
        Wrong{"qqqqqq = 3",
              "a.toml:1:1: unknown key 'qqqqqq'; known at the top are name, time, solver, body, camera, "
-             "render, ground, light, sky, caption, clip, background"}});
+             "render, ground, light, sky, caption, clip, glyphs, energy_plot, background"}});
 }
 
 TEST(WrongScene, Overlays) {
