@@ -217,17 +217,19 @@ std::vector<BoundaryFace> boundary_faces(const TetMesh& mesh, Range tets) {
   return faces;
 }
 
+void add_drawn(const BoundaryFace& face, std::vector<Triangle>& triangles) {
+  const auto [a, b, c] = face.corners;
+  const auto [ab, bc, ca] = face.midsides;
+  if (ab < 0) {
+    triangles.push_back(face.corners);
+  } else {
+    triangles.insert(triangles.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+  }
+}
+
 std::vector<Triangle> drawn_boundary(const TetMesh& mesh, Range tets) {
   std::vector<Triangle> triangles;
-  for (const BoundaryFace& face : boundary_faces(mesh, tets)) {
-    const auto [a, b, c] = face.corners;
-    const auto [ab, bc, ca] = face.midsides;
-    if (ab < 0) {
-      triangles.push_back(face.corners);
-    } else {
-      triangles.insert(triangles.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-    }
-  }
+  for (const BoundaryFace& face : boundary_faces(mesh, tets)) add_drawn(face, triangles);
   return triangles;
 }
 

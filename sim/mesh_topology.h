@@ -43,6 +43,9 @@ struct BoundaryFace {
 };
 std::vector<BoundaryFace> boundary_faces(const TetMesh&, Range tets);
 
+/// Adds the face's triangle, or the four between its six nodes.
+void add_drawn(const BoundaryFace&, std::vector<Triangle>&);
+
 /// The midside node of a tet between two of its corners, 0..3. The tet must be quadratic.
 int midside(const Midsides&, int a, int b);
 

@@ -1,5 +1,7 @@
 #include "sim/surface.h"
 
+#include <algorithm>
+#include <set>
 #include <utility>
 
 #include <tbb/blocked_range.h>
@@ -21,26 +23,79 @@ const Body& body_of(const TetMesh& mesh, int body) {
   return mesh.bodies[static_cast<std::size_t>(body)];
 }
 
-}  // namespace
+using Entries = std::vector<Eigen::Triplet<double>>;
 
-Surface Surface::boundary(const TetMesh& mesh, int body) {
-  Surface surface;
-  surface.triangles_ = drawn_boundary(mesh, body_of(mesh, body).tets);
-  // Surface vertices are numbered in the order of the mesh's.
-  std::vector<int> number(static_cast<std::size_t>(mesh.vertex_count()), -1);
-  for (const Triangle& triangle : surface.triangles_) {
+/// Numbers the triangles' vertices from 0 on, in the order of the mesh's, with an entry of 1 for each.
+Entries number_compactly(std::vector<Triangle>& triangles, int vertex_count) {
+  std::vector<int> number(static_cast<std::size_t>(vertex_count), -1);
+  for (const Triangle& triangle : triangles) {
     for (const int corner : triangle) number[static_cast<std::size_t>(corner)] = 0;
   }
-  std::vector<Eigen::Triplet<double>> entries;
+  Entries entries;
   for (std::size_t v = 0; v < number.size(); ++v) {
     if (number[v] < 0) continue;
     number[v] = static_cast<int>(entries.size());
     entries.emplace_back(number[v], static_cast<int>(v), 1.0);
   }
-  for (Triangle& triangle : surface.triangles_) {
+  for (Triangle& triangle : triangles) {
     for (int& corner : triangle) corner = number[static_cast<std::size_t>(corner)];
   }
+  return entries;
+}
+
+Triangle sorted(Triangle t) {
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+}  // namespace
+
+TetMesh kept_part(const TetMesh& mesh, int body, const Vec3& point, const Vec3& normal) {
+  const Body& whole = body_of(mesh, body);
+  TetMesh kept;
+  kept.X = mesh.X;
+  for (int t = whole.tets.begin; t < whole.tets.end; ++t) {
+    const auto j = static_cast<std::size_t>(t);
+    Vec3 centroid = Vec3::Zero();
+    for (const int corner : mesh.tets[j]) centroid += 0.25 * mesh.X.row(corner).transpose();
+    if ((centroid - point).dot(normal) < 0.0) continue;
+    kept.tets.push_back(mesh.tets[j]);
+    kept.tags.push_back(mesh.tags[j]);
+    if (!mesh.midsides.empty()) kept.midsides.push_back(mesh.midsides[j]);
+  }
+  kept.bodies.push_back({whole.name, whole.vertices, {0, kept.tet_count()}});
+  return kept;
+}
+
+Surface Surface::boundary(const TetMesh& mesh, int body) {
+  Surface surface;
+  surface.triangles_ = drawn_boundary(mesh, body_of(mesh, body).tets);
+  const Entries entries = number_compactly(surface.triangles_, mesh.vertex_count());
+  surface.first_cut_vertex_ = static_cast<int>(entries.size());
   surface.W_.resize(static_cast<Eigen::Index>(entries.size()), mesh.vertex_count());
+  surface.W_.setFromTriplets(entries.begin(), entries.end());
+  return surface;
+}
+
+Surface Surface::part(const TetMesh& whole, int body, const TetMesh& kept) {
+  std::set<Triangle> skin;
+  for (const BoundaryFace& face : boundary_faces(whole, body_of(whole, body).tets))
+    skin.insert(sorted(face.corners));
+  Surface surface;
+  std::vector<Triangle> cut;
+  for (const BoundaryFace& face : boundary_faces(kept, {0, kept.tet_count()}))
+    add_drawn(face, skin.contains(sorted(face.corners)) ? surface.triangles_ : cut);
+  Entries entries = number_compactly(surface.triangles_, whole.vertex_count());
+  surface.first_cut_vertex_ = static_cast<int>(entries.size());
+  for (Triangle triangle : cut) {
+    for (int& corner : triangle) {
+      const int own = static_cast<int>(entries.size());
+      entries.emplace_back(own, corner, 1.0);
+      corner = own;
+    }
+    surface.triangles_.push_back(triangle);
+  }
+  surface.W_.resize(static_cast<Eigen::Index>(entries.size()), whole.vertex_count());
   surface.W_.setFromTriplets(entries.begin(), entries.end());
   return surface;
 }
@@ -81,6 +136,7 @@ Surface Surface::embedded(const TetMesh& mesh, int body, const TriMesh& fine, do
                      "'; at most " + short_number(max_outside * diagonal) + " m, " +
                      short_number(100.0 * max_outside) + " % of its size, can be carried");
   }
+  surface.first_cut_vertex_ = static_cast<int>(count);
   surface.W_.resize(static_cast<Eigen::Index>(count), mesh.vertex_count());
   surface.W_.setFromTriplets(entries.begin(), entries.end());
   return surface;

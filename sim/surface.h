@@ -7,6 +7,10 @@
 
 namespace lagomorph::sim {
 
+/// What is left of a body that a plane opens: its whole tets whose centroids at rest have
+/// (X - point) . normal >= 0, over the same vertices.
+TetMesh kept_part(const TetMesh&, int body, const Vec3& point, const Vec3& normal);
+
 /// Triangles that are drawn, and what moves them: x_surface = W x_tets, with W sparse (one entry of 1 a row
 /// for the boundary of the tets, φ_i of the tet that holds it for a vertex of an embedded fine mesh).
 class Surface {
@@ -19,7 +23,12 @@ public:
   /// names the vertex, its distance, the limit.
   static Surface embedded(const TetMesh&, int body, const TriMesh& fine, double max_outside = 0.01);
 
+  /// The same of a part of the body's tets, as kept_part() gives it. Triangles that were inside of the body
+  /// come last and have corners of their own, so that smooth normals stop at the cut.
+  static Surface part(const TetMesh& whole, int body, const TetMesh& kept);
+
   const std::vector<Triangle>& triangles() const { return triangles_; }
+  int first_cut_vertex() const { return first_cut_vertex_; }  // vertex_count() where nothing is cut
   int vertex_count() const { return static_cast<int>(W_.rows()); }
   int outside_count() const { return outside_count_; }  // fine vertices outside of every tet (extrapolated)
   double outside_distance() const { return outside_; }  // the largest distance of one [m]
@@ -30,6 +39,7 @@ private:
   using Weights = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
   std::vector<Triangle> triangles_;
   Weights W_;  // vertex_count × tet-mesh vertex count
+  int first_cut_vertex_ = 0;
   int outside_count_ = 0;
   double outside_ = 0.0;
 };

@@ -12,6 +12,7 @@
 #include "apps/file_io.h"
 #include "apps/pipeline/build_scene.h"
 #include "apps/pipeline/finish_picture.h"
+#include "apps/pipeline/overlays.h"
 #include "apps/pipeline/stop.h"
 #include "apps/pipeline/surface_fields.h"
 #include "apps/run/plan.h"
@@ -38,8 +39,9 @@ public:
         states_(paths_, info_.identity, scene_.time.frames),
         camera_(scene_.camera, scene_.render.width, scene_.render.height),
         model_(build_model(scene_, progress)),
-        surfaces_(build_surfaces(scene_, model_, progress)),
+        surfaces_(drawn_surfaces(scene_, model_, progress)),
         fields_(scene_, model_, surfaces_),
+        overlays_(scene_, model_, surfaces_),
         rest_(build_render_scene(scene_, model_, surfaces_)),
         threads_(request.threads) {
     scene_.render.channels.clear();
@@ -51,8 +53,12 @@ public:
       frames_ = {all.first, (all.first + all.last) / 2, all.last};
     }
     for (const int frame : frames_) states_.require({frame, frame});
-    if (!fields_.is_automatic()) return;
-    for (const auto& [frame, record] : states_.records()) fields_.see(state(frame).q);
+    if (!needs_sequence(scene_)) return;
+    for (const auto& [frame, record] : states_.records()) {
+      const sim::VecX q = state(frame).q;
+      if (fields_.is_automatic()) fields_.see(q);
+      overlays_.see(frame, record, q);
+    }
   }
 
   const std::set<int>& frames() const { return frames_; }
@@ -69,7 +75,7 @@ public:
       const sim::Points positions = surfaces_[i].positions(q);
       for (std::size_t v = 0; v < drawn.meshes[i].positions.size(); ++v)
         drawn.meshes[i].positions[v] = positions.row(static_cast<Eigen::Index>(v)).transpose().cast<float>();
-      drawn.meshes[i].colors = colors[i];
+      if (!colors[i].empty()) drawn.meshes[i].colors = colors[i];
     }
     return drawn;
   }
@@ -79,9 +85,9 @@ public:
     if (stop_asked()) throw Error(stop_status(), "stopped: no limits were proposed");
     const auto renderer = render::make_renderer(settings, threads);
     renderer->set_scene(scene);
-    const double time = frame / scene_.time.fps;
-    return finish_picture(renderer->render(camera_, {frame, time}), scene_, fields_, frame,
-                          states_.records().at(frame));
+    const sim::State shown = state(frame);
+    const render::Image image = renderer->render(camera_, {frame, frame / scene_.time.fps});
+    return finish_picture({image, camera_, shown, states_.records().at(frame)}, scene_, fields_, overlays_);
   }
 
 private:
@@ -108,6 +114,7 @@ private:
   sim::Model model_;
   std::vector<sim::Surface> surfaces_;
   SurfaceFields fields_;
+  Overlays overlays_;
   render::RenderScene rest_;
   int threads_;
   std::set<int> frames_;

@@ -56,8 +56,8 @@ std::vector<std::string> caption_places() {
   return {"top_left", "top", "top_right", "bottom_left", "bottom", "bottom_right"};
 }
 
-void draw_caption(render::Picture& picture, const std::string& text, const std::string& place) {
-  if (text.empty()) return;
+Rectangle caption_plate(const render::Picture& picture, const std::string& text, const std::string& place) {
+  if (text.empty()) return {};
   const std::string_view where = place;
   const double height = overlay_text_height(picture), pad = height, margin = 3.0 * overlay_unit(picture);
   const std::vector<std::string> lines = lines_of(text);
@@ -71,12 +71,20 @@ void draw_caption(render::Picture& picture, const std::string& text, const std::
   if (where.ends_with("left")) left = margin;
   if (where.ends_with("right")) left = picture.width - margin - plate;
   const double top = where.starts_with("top") ? margin : picture.height - margin - tall;
-  if (left < 0.0 || top < 0.0 || left + plate > picture.width || top + tall > picture.height) return;
-  draw_plate(picture, {left, top, left + plate, top + tall});
+  if (left < 0.0 || top < 0.0 || left + plate > picture.width || top + tall > picture.height) return {};
+  return {left, top, left + plate, top + tall};
+}
+
+void draw_caption(render::Picture& picture, const std::string& text, const std::string& place) {
+  const Rectangle plate = caption_plate(picture, text, place);
+  if (plate.right <= plate.left) return;
+  draw_plate(picture, plate);
+  const double height = overlay_text_height(picture), pad = height;
+  const std::vector<std::string> lines = lines_of(text);
   const TextStyle style{.height = height, .color = plate_ink};
   for (std::size_t i = 0; i < lines.size(); ++i)
-    draw_text(picture, left + pad, top + pad + height + line_height * height * static_cast<double>(i),
-              lines[i], style);
+    draw_text(picture, plate.left + pad,
+              plate.top + pad + height + line_height * height * static_cast<double>(i), lines[i], style);
 }
 
 }  // namespace lagomorph::apps

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/overlay/overlay.h"
 #include "render/color.h"
 
 namespace lagomorph::apps {
@@ -24,6 +25,9 @@ std::string caption_text(const std::string& form, const CaptionValues&);
 
 /// top_left, top, top_right, bottom_left, bottom, bottom_right.
 std::vector<std::string> caption_places();
+
+/// The plate of a caption; empty where there is no text or the picture is too small.
+Rectangle caption_plate(const render::Picture&, const std::string& text, const std::string& place);
 
 /// Writes lines of text on a plate, at a place as above; nothing where the picture is too small.
 void draw_caption(render::Picture&, const std::string& text, const std::string& place);

@@ -91,12 +91,12 @@ void draw_bar(render::Picture& picture, const ColorBar& bar, const BarLabels& la
 
 }  // namespace
 
-BarLabels labels_of(const ColorBar& bar) {
+BarLabels labels_of(const ColorBar& bar, int steps) {
   const double size = std::max(std::abs(bar.low), std::abs(bar.high));
   const Prefix prefix = prefix_of(size, !bar.unit.empty());
   BarLabels labels{bar.title, {}};
   if (!bar.unit.empty()) labels.title += fmt::format(" ({}{})", prefix.name, bar.unit);
-  const std::vector<double> places = ticks(bar.low / prefix.factor, bar.high / prefix.factor, 8);
+  const std::vector<double> places = ticks(bar.low / prefix.factor, bar.high / prefix.factor, steps);
   const double step = places[1] - places[0];
   for (const double place : places) {
     const double value = place * prefix.factor, slack = 1e-9 * (bar.high - bar.low);
@@ -107,17 +107,18 @@ BarLabels labels_of(const ColorBar& bar) {
   return labels;
 }
 
-void draw_color_bars(render::Picture& picture, const std::vector<ColorBar>& bars) {
+double draw_color_bars(render::Picture& picture, const std::vector<ColorBar>& bars) {
   const double margin = 3.0 * overlay_unit(picture);
   double right = picture.width - margin;
   for (const ColorBar& bar : bars) {
     const BarLabels labels = labels_of(bar);
     const Layout l = layout_of(picture, labels);
     const double left = std::round(right - l.width()), top = std::round(0.5 * (picture.height - l.height()));
-    if (left < 0.0 || top < 0.0) return;
+    if (left < 0.0 || top < 0.0) break;
     draw_bar(picture, bar, labels, l, left, top);
     right = left - 0.5 * margin;
   }
+  return picture.width - margin - right;
 }
 
 }  // namespace lagomorph::apps

@@ -25,10 +25,11 @@ struct BarLabels {
   std::string title;  // with the unit
   std::vector<BarLabel> ticks;
 };
-BarLabels labels_of(const ColorBar&);
+/// Some `steps` or fewer apart.
+BarLabels labels_of(const ColorBar&, int steps = 8);
 
 /// Draws the bars at the right edge of the picture, each left of the one before; nothing in a picture that is
-/// too small for them.
-void draw_color_bars(render::Picture&, const std::vector<ColorBar>&);
+/// too small for them. How far from that edge the bars and the gap beside them reach [pixels].
+double draw_color_bars(render::Picture&, const std::vector<ColorBar>&);
 
 }  // namespace lagomorph::apps

@@ -41,7 +41,7 @@ Box box_of(std::span<const Segment> segments, double radius, const render::Pictu
 }  // namespace
 
 void draw_strokes(render::Picture& picture, std::span<const Segment> segments, double width,
-                  const Color& color) {
+                  const Color& color, double opacity) {
   const double radius = std::max(0.5, 0.5 * width);
   const Box all = box_of(segments, radius, picture);
   const auto place = [&](int x, int y) {
@@ -60,7 +60,7 @@ void draw_strokes(render::Picture& picture, std::span<const Segment> segments, d
   }
   for (int y = all.y0; y <= all.y1; ++y) {
     for (int x = all.x0; x <= all.x1; ++x) {
-      const double c = cover[place(x, y)];
+      const double c = opacity * cover[place(x, y)];
       if (c == 0) continue;
       const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
                                   static_cast<std::size_t>(x));

@@ -1,5 +1,6 @@
 #include "apps/pipeline/build_scene.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -43,14 +44,6 @@ sim::TriMesh read_fine_mesh(const BodyDesc& body, const std::filesystem::path& f
                             fine.triangles.size(), size_of(fine.X)));
   note_all(progress, file.string(), remarks);
   return fine;
-}
-
-std::vector<render::Vec3> to_render(const sim::Points& points) {
-  std::vector<render::Vec3> positions(static_cast<std::size_t>(points.rows()));
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    positions[i] = points.row(static_cast<Eigen::Index>(i)).transpose().cast<float>();
-  }
-  return positions;
 }
 
 /// The picture of a sky around; messages name the file.
@@ -151,6 +144,29 @@ std::vector<sim::Surface> build_surfaces(const SceneDesc& scene, const sim::Mode
   return surfaces;
 }
 
+std::vector<sim::Surface> drawn_surfaces(const SceneDesc& scene, const sim::Model& model,
+                                         Progress& progress) {
+  if (!scene.clip) return build_surfaces(scene, model, progress);
+  std::vector<sim::Surface> surfaces;
+  bool any = false;
+  for (int i = 0; i < static_cast<int>(scene.body.size()); ++i) {
+    const sim::TetMesh kept = sim::kept_part(model.mesh(), i, scene.clip->point, scene.clip->normal);
+    surfaces.push_back(sim::Surface::part(model.mesh(), i, kept));
+    any = any || kept.tet_count() > 0;
+  }
+  if (any) return surfaces;
+  throw Error(ExitStatus::wrong_input,
+              "clip leaves nothing: no tet of any body is on the side that clip.normal points to");
+}
+
+std::vector<render::Vec3> to_render(const sim::Points& points) {
+  std::vector<render::Vec3> positions(static_cast<std::size_t>(points.rows()));
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    positions[i] = points.row(static_cast<Eigen::Index>(i)).transpose().cast<float>();
+  }
+  return positions;
+}
+
 render::RenderScene build_render_scene(const SceneDesc& scene, const sim::Model& model,
                                        const std::vector<sim::Surface>& surfaces) {
   const sim::VecX X = model.initial_state().q;
@@ -158,14 +174,21 @@ render::RenderScene build_render_scene(const SceneDesc& scene, const sim::Model&
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     render::Mesh mesh;
     mesh.name = model.mesh().bodies[i].name;
+    const SurfaceDesc& shown = scene.body[i].surface;
     for (const sim::Triangle& t : surfaces[i].triangles()) {
+      if (!shown.fill) break;
       mesh.triangles.push_back({static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
                                 static_cast<std::uint32_t>(t[2])});
+      if (shown.flip) std::swap(mesh.triangles.back()[1], mesh.triangles.back()[2]);
     }
     mesh.positions = to_render(surfaces[i].positions(X));
     mesh.material = scene.body[i].look;
-    if (scene.body[i].shown.field != "none")
+    if (scene.body[i].shown.field != "none") {
       mesh.colors.assign(mesh.positions.size(), mesh.material.base_color);  // until a state is shown
+    } else if (scene.clip && scene.clip->color) {
+      mesh.colors.assign(mesh.positions.size(), mesh.material.base_color);
+      std::fill(mesh.colors.begin() + surfaces[i].first_cut_vertex(), mesh.colors.end(), *scene.clip->color);
+    }
     mesh.smooth = scene.body[i].surface.smooth;
     mesh.body_id = static_cast<int>(i);
     drawn.meshes.push_back(std::move(mesh));

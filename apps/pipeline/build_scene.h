@@ -22,7 +22,14 @@ std::vector<sim::BodyInput> read_bodies(const SceneDesc&, Progress&);
 /// sim::InputError.
 std::vector<sim::Surface> build_surfaces(const SceneDesc&, const sim::Model&, Progress&);
 
-/// What a renderer draws, the bodies at rest.
+/// The same where no plane opens the bodies; where one does, the boundary of the tets that it leaves. Throws
+/// sim::InputError, and Error(wrong_input) when nothing is left.
+std::vector<sim::Surface> drawn_surfaces(const SceneDesc&, const sim::Model&, Progress&);
+
+/// In single precision, as renderers take them.
+std::vector<render::Vec3> to_render(const sim::Points&);
+
+/// What a renderer draws, the bodies at rest. A body without fill has no triangles.
 render::RenderScene build_render_scene(const SceneDesc&, const sim::Model&, const std::vector<sim::Surface>&);
 
 /// Of a shutter that is open for this part of the time since the state before, until the frame.

@@ -1,5 +1,8 @@
 #include "apps/pipeline/finish_picture.h"
 
+#include <utility>
+#include <vector>
+
 #include "apps/overlay/caption.h"
 #include "apps/overlay/color_bar.h"
 
@@ -21,12 +24,29 @@ CaptionValues caption_values(const SceneDesc& scene, int frame, const StateRecor
 
 }  // namespace
 
-render::Picture finish_picture(const render::Image& image, const SceneDesc& scene,
-                               const SurfaceFields& fields, int frame, const StateRecord& state) {
-  render::Picture picture = render::tone_map(image, scene.render.tone_curve, scene.render.exposure);
-  draw_color_bars(picture, fields.bars());
-  draw_caption(picture, caption_text(scene.caption.text, caption_values(scene, frame, state)),
-               scene.caption.place);
+std::map<std::string, std::array<double, 2>> picture_ranges(const SurfaceFields& fields,
+                                                            const Overlays& overlays) {
+  std::map<std::string, std::array<double, 2>> ranges = fields.ranges();
+  ranges.merge(overlays.ranges());
+  return ranges;
+}
+
+render::Picture finish_picture(const RenderedFrame& frame, const SceneDesc& scene,
+                               const SurfaceFields& fields, const Overlays& overlays) {
+  render::Picture picture = render::tone_map(frame.image, scene.render.tone_curve, scene.render.exposure);
+  overlays.draw(picture, frame.camera, frame.state);
+  std::vector<ColorBar> bars = fields.bars();
+  for (ColorBar& bar : overlays.bars()) bars.push_back(std::move(bar));
+  const double beside = draw_color_bars(picture, bars);
+  const std::string caption =
+      caption_text(scene.caption.text, caption_values(scene, frame.state.frame, frame.told));
+  double above = 0.0;  // the caption, where it is in the same place
+  if (scene.caption.place == scene.energy_plot.place) {
+    const Rectangle plate = caption_plate(picture, caption, scene.caption.place);
+    if (plate.bottom > plate.top) above = plate.bottom - plate.top + overlay_unit(picture);
+  }
+  overlays.draw_energies(picture, frame.state.frame, above, beside);
+  draw_caption(picture, caption, scene.caption.place);
   return picture;
 }
 

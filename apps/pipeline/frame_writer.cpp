@@ -25,8 +25,14 @@ std::string encode_channel(const render::Channel& channel) {
 }  // namespace
 
 FrameWriter::FrameWriter(const RunPaths& paths, const Identity& identity, const SceneDesc& scene,
-                         const std::map<int, FrameRecord>& records, const SurfaceFields& fields, bool draws)
-    : paths_(paths), identity_(identity), scene_(scene), records_(records), fields_(fields) {
+                         const std::map<int, FrameRecord>& records, const SurfaceFields& fields,
+                         const Overlays& overlays, bool draws)
+    : paths_(paths),
+      identity_(identity),
+      scene_(scene),
+      records_(records),
+      fields_(fields),
+      overlays_(overlays) {
   make_folder(paths.states());
   make_folder(paths.records());
   if (!draws) return;
@@ -43,7 +49,7 @@ void FrameWriter::write(const DrawnFrame& frame) const {
   if (frame.of.made) record.state = write_state(frame.of.state, *frame.of.made);
   if (record.picture && record.picture->of_state != record.state->sha256) record.picture.reset();
   if (frame.image) {
-    record.picture = write_picture(job.frame, *record.state, *frame.image);
+    record.picture = write_picture(frame, *record.state);
     record.picture->of_state = record.state->sha256;
     record.picture->rendering_seconds = frame.seconds;
     record.picture->writing_seconds = watch.seconds();
@@ -59,16 +65,18 @@ StateRecord FrameWriter::write_state(const sim::State& state, StateRecord record
   return record;
 }
 
-PictureRecord FrameWriter::write_picture(int frame, const StateRecord& state,
-                                         const render::Image& image) const {
-  const std::string png =
-      render::encode_png(finish_picture(image, scene_, fields_, frame, state), scene_.render.png_compression);
+PictureRecord FrameWriter::write_picture(const DrawnFrame& drawn, const StateRecord& told) const {
+  const render::Image& image = *drawn.image;
+  const int frame = drawn.of.job.frame;
+  const render::Picture picture =
+      finish_picture({image, *drawn.camera, drawn.of.state, told}, scene_, fields_, overlays_);
+  const std::string png = render::encode_png(picture, scene_.render.png_compression);
   write_file(paths_.picture(frame), png);
   PictureRecord record;
   record.sha256 = sha256(png);
   record.made_by = identity_.picture_hash();
   if (scene_.render.backend == "path") record.clamp = static_cast<double>(scene_.render.path.clamp);
-  record.ranges = fields_.ranges();
+  record.ranges = picture_ranges(fields_, overlays_);
   for (const std::string& name : scene_.render.channels) {
     const render::Channel* channel = image.find(name);
     if (channel == nullptr) {

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "apps/pipeline/frames.h"
+#include "apps/pipeline/overlays.h"
 #include "apps/pipeline/surface_fields.h"
 #include "apps/run/identity.h"
 #include "apps/run/paths.h"
@@ -17,19 +18,20 @@ class FrameWriter {
 public:
   /// `records` are those of the frames that are there. Makes the folders.
   FrameWriter(const RunPaths&, const Identity&, const SceneDesc&, const std::map<int, FrameRecord>& records,
-              const SurfaceFields&, bool draws);
+              const SurfaceFields&, const Overlays&, bool draws);
 
   void write(const DrawnFrame&) const;
 
 private:
   StateRecord write_state(const sim::State&, StateRecord) const;
-  PictureRecord write_picture(int frame, const StateRecord&, const render::Image&) const;
+  PictureRecord write_picture(const DrawnFrame&, const StateRecord&) const;
 
   const RunPaths& paths_;
   const Identity& identity_;
   const SceneDesc& scene_;
   const std::map<int, FrameRecord>& records_;
   const SurfaceFields& fields_;
+  const Overlays& overlays_;
 };
 
 }  // namespace lagomorph::apps

@@ -40,7 +40,7 @@ private:
 };
 
 DrawnFrame draw(const PipelineInput& in, const std::optional<render::Camera>& camera, StateFrame frame) {
-  DrawnFrame drawn{.of = std::move(frame), .image = {}, .seconds = 0.0};
+  DrawnFrame drawn{.of = std::move(frame), .image = {}, .camera = {}, .seconds = 0.0};
   if (!drawn.of.job.draw || stop_asked()) return drawn;  // a stopped run still keeps the state
   const Stopwatch watch;
   std::optional<MotionBlur> blur;
@@ -49,6 +49,7 @@ DrawnFrame draw(const PipelineInput& in, const std::optional<render::Camera>& ca
   move_meshes(*in.renderer, in.surfaces, drawn.of.state.q, blur ? &*blur : nullptr);
   in.fields.color_meshes(*in.renderer, drawn.of.state.q);
   drawn.image = in.renderer->render(*camera, {drawn.of.job.frame, drawn.of.state.t});
+  drawn.camera = camera;
   drawn.seconds = watch.seconds();
   return drawn;
 }
@@ -60,7 +61,8 @@ PipelineResult run_pipeline(const PipelineInput& in, Progress& progress) {
   std::optional<render::Camera> camera;
   if (in.renderer != nullptr) camera.emplace(in.scene.camera, settings.width, settings.height);
   StateSource states(in.scene, in.model, in.integrator, in.paths, in.log_newton);
-  const FrameWriter writer(in.paths, in.identity, in.scene, in.records, in.fields, camera.has_value());
+  const FrameWriter writer(in.paths, in.identity, in.scene, in.records, in.fields, in.overlays,
+                           camera.has_value());
   BoundedQueue<StateFrame> to_draw(frames_between_stages);
   BoundedQueue<DrawnFrame> to_write(frames_between_stages);
   Turns turns(in.threads);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/pipeline/frames.h"
+#include "apps/pipeline/overlays.h"
 #include "apps/pipeline/surface_fields.h"
 #include "apps/progress/progress.h"
 #include "apps/run/identity.h"
@@ -24,6 +25,7 @@ struct PipelineInput {
   const sim::Model& model;
   const std::vector<sim::Surface>& surfaces;
   const SurfaceFields& fields;
+  const Overlays& overlays;
   sim::Integrator& integrator;
   render::Renderer*
       renderer;  // with its scene set; made by the calling thread; nullptr when nothing is drawn

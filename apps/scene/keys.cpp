@@ -6,6 +6,7 @@
 
 #include "apps/overlay/caption.h"
 #include "apps/scene/body_keys.h"
+#include "apps/scene/overlay_keys.h"
 #include "render/color.h"
 #include "render/path/filter.h"
 #include "render/renderer.h"
@@ -120,6 +121,12 @@ void visit_surface(SurfaceDesc& s, KeyVisitor& v) {
                     "bounding-box diagonal"},
         &s.max_outside);
   v.key({.name = "smooth", .meaning = "smooth normals; false: one a triangle"}, &s.smooth);
+  v.key(
+      {.name = "flip", .meaning = "its other side is the outside: for meshes whose triangles are inside out"},
+      &s.flip);
+  v.key({.name = "fill",
+         .meaning = "false: nothing of the surface but its wireframe is drawn, and it has no shadow"},
+        &s.fill);
 }
 
 void visit_body(BodyDesc& b, KeyVisitor& v) {
@@ -189,6 +196,11 @@ void visit_body(BodyDesc& b, KeyVisitor& v) {
         visit_damping);
   v.one({.name = "surface", .meaning = "what of the body is drawn"}, b.surface, visit_surface);
   v.one({.name = "look", .meaning = "how the body is drawn"}, b, visit_body_look);
+  v.one({.name = "wireframe", .meaning = "lines along its edges, over the picture"}, b.wireframe,
+        visit_wireframe);
+  v.one({.name = "ghost", .meaning = "its rest shape, over the picture"}, b.ghost, visit_ghost);
+  v.one({.name = "labels", .meaning = "numbers of its vertices and faces, where they are seen"}, b.labels,
+        visit_labels);
   v.list(
       {.name = "pin",
        .meaning = "vertices held where they are at the start, or driven; several selectors select the union"},
@@ -478,6 +490,15 @@ void visit_scene(SceneDesc& s, KeyVisitor& v) {
       s.light, visit_light);
   v.one({.name = "sky", .meaning = "light from all around"}, s.sky, visit_sky);
   v.one({.name = "caption", .meaning = "text over the pictures"}, s.caption, visit_caption);
+  v.optional({.name = "clip",
+              .meaning = "a plane that opens the bodies: whole tets on one side of it are drawn, the same in "
+                         "all frames, instead of surfaces"},
+             s.clip, visit_clip);
+  v.one({.name = "glyphs", .meaning = "signs of what holds, pulls and moves the bodies, over the picture"},
+        s.glyphs, visit_glyphs);
+  v.one({.name = "energy_plot",
+         .meaning = "a diagram of the energies up to the frame, over the picture; its axes span all frames"},
+        s.energy_plot, visit_energy_plot);
   v.one({.name = "background", .meaning = "what the camera sees where nothing is"}, s.background,
         visit_background);
 }

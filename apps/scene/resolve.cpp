@@ -222,6 +222,8 @@ void check_looks(const SceneDesc& scene, const Places& places) {
   } catch (const Error& e) {
     wrong_input(fmt::format("{}caption.text: {}", places.of("caption.text"), e.what()));
   }
+  if (scene.clip && scene.clip->normal.cwiseAbs().maxCoeff() == 0.0)
+    wrong_input(fmt::format("{}clip.normal must not be 0", places.of("clip.normal")));
   std::set<std::string> channels;
   for (const std::string& channel : scene.render.channels) {
     if (!channels.insert(channel).second) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/scene/overlay_desc.h"
 #include "render/atmosphere.h"
 #include "render/camera.h"
 #include "render/render_scene.h"
@@ -21,6 +22,8 @@ struct SurfaceDesc {
   double max_outside =
       0.01;  // of the body's bounding-box diagonal; a fine vertex further outside of the tets is an error
   bool smooth = true;  // smooth normals; false: one a triangle
+  bool flip = false;   // its other side is the outside
+  bool fill = true;    // false: only its lines are drawn
 };
 
 /// A scalar field of a body's state, shown in the colours of its surface.
@@ -38,6 +41,9 @@ struct BodyDesc {
   SurfaceDesc surface;           // [body.surface]
   render::Material look;         // [body.look]
   ShownField shown;              // likewise
+  WireframeDesc wireframe;       // [body.wireframe]
+  GhostDesc ghost;               // [body.ghost]
+  LabelsDesc labels;             // [body.labels]
   // "a.toml:12:1: body.0.pin.0": where each stands, for errors
   std::vector<std::string> pin_places, spring_places, load_places;
 };
@@ -76,6 +82,9 @@ struct SceneDesc {
   std::vector<LightDesc> light;             // [[light]]; none in the file: one key light by default
   SkyDesc sky;                              // [sky]
   CaptionDesc caption;                      // [caption]
+  std::optional<ClipDesc> clip;             // [clip]
+  GlyphsDesc glyphs;                        // [glyphs]
+  EnergyPlotDesc energy_plot;               // [energy_plot]
   std::optional<render::Color> background;  // [background] color = [r, g, b], linear
   std::filesystem::path directory;          // of the scene file: what relative paths in it are relative to
 };

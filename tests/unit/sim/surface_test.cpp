@@ -38,6 +38,45 @@ TEST(Surface, BoundaryIsOutwardAndFollows) {
   EXPECT_LT((moved - affine(surface.positions(flat(mesh.X)))).cwiseAbs().maxCoeff(), 1e-14);
 }
 
+/// A cut of the cube at x = 0.5 by whole tets: closed, outward, and the same volume as its tets'.
+TEST(Surface, APartIsClosedAndItsCutHasCornersOfItsOwn) {
+  const TetMesh mesh = cube_mesh(4);
+  const Vec3 point(0.5, 0.5, 0.5), normal(-2.0, 0.0, 0.0);
+  const TetMesh kept = kept_part(mesh, 0, point, normal);
+  EXPECT_EQ(kept.tet_count(), mesh.tet_count() / 2);
+  const Surface part = Surface::part(mesh, 0, kept);
+  const Points x = part.positions(flat(mesh.X));
+  EXPECT_NEAR(enclosed_volume(x, part.triangles()), 0.5, 1e-14);
+  ASSERT_LT(part.first_cut_vertex(), part.vertex_count());
+  for (int v = part.first_cut_vertex(); v < part.vertex_count(); ++v) EXPECT_NEAR(x(v, 0), 0.5, 1e-14);
+  // Each corner of the cut is in one triangle alone, and no triangle has corners of both kinds.
+  std::vector<int> uses(static_cast<std::size_t>(part.vertex_count()), 0);
+  for (const Triangle& t : part.triangles()) {
+    int of_cut = 0;
+    for (const int v : t) {
+      ++uses[static_cast<std::size_t>(v)];
+      of_cut += v >= part.first_cut_vertex() ? 1 : 0;
+    }
+    EXPECT_TRUE(of_cut == 0 || of_cut == 3);
+  }
+  for (auto v = static_cast<std::size_t>(part.first_cut_vertex()); v < uses.size(); ++v)
+    EXPECT_EQ(uses[v], 1);
+  const Points moved = part.positions(flat(affine(mesh.X)));
+  EXPECT_LT((moved - affine(x)).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+TEST(Surface, APartOfEverythingOrNothing) {
+  const TetMesh mesh = cube_mesh(2);
+  const Surface all = Surface::part(mesh, 0, kept_part(mesh, 0, Vec3(-1, 0, 0), Vec3::UnitX()));
+  const Surface boundary = Surface::boundary(mesh, 0);
+  EXPECT_EQ(all.triangles(), boundary.triangles());
+  EXPECT_EQ(all.first_cut_vertex(), all.vertex_count());
+  EXPECT_EQ(boundary.first_cut_vertex(), boundary.vertex_count());
+  const Surface none = Surface::part(mesh, 0, kept_part(mesh, 0, Vec3(2, 0, 0), Vec3::UnitX()));
+  EXPECT_TRUE(none.triangles().empty());
+  EXPECT_EQ(none.vertex_count(), 0);
+}
+
 TEST(Surface, BoundaryOfTheSecondBodyLeavesTheFirstAlone) {
   TetMesh mesh = cube_mesh(1);
   const TetMesh other = one_tet();

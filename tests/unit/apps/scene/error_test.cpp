@@ -57,7 +57,20 @@ TEST(WrongScene, Keys) {
              "azimuth, turbidity"},
        Wrong{"qqqqqq = 3",
              "a.toml:1:1: unknown key 'qqqqqq'; known at the top are name, time, solver, body, camera, "
-             "render, ground, light, sky, caption, background"}});
+             "render, ground, light, sky, caption, clip, glyphs, energy_plot, background"}});
+}
+
+TEST(WrongScene, Overlays) {
+  expect_told(
+      {Wrong{"[clip]\npoint = [0, 0, 0]\nnormal = [0, 0, 0]", "a.toml:3:10: clip.normal must not be 0"},
+       Wrong{"[clip]\npoint = [0, 0, 0]",
+             "a.toml:1:1: clip.normal is missing: towards the tets that are kept, by their centroids at "
+             "rest; of any length but 0"},
+       Wrong{"clip = 3", "a.toml:1:8: clip must be a table, not 3"}});
+  EXPECT_EQ(error_of(body + "wireframe = { show = true, hidden = 'dotted' }"),
+            "a.toml:3:37: unknown body.0.wireframe.hidden 'dotted'; known are none, faint, dashed, all");
+  EXPECT_EQ(error_of(body + "wireframe = { width = 0 }"),
+            "a.toml:3:23: body.0.wireframe.width = 0 is out of range; it must be in (0, 100]");
 }
 
 TEST(WrongScene, Syntax) {

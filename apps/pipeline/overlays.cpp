@@ -1,0 +1,170 @@
+#include "apps/pipeline/overlays.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "apps/overlay/ghost.h"
+#include "apps/pipeline/build_scene.h"
+#include "apps/pipeline/surface_fields.h"
+
+namespace lagomorph::apps {
+namespace {
+
+LineStyle style_of(const WireframeDesc& w) {
+  return {.color = srgb_color(w.color), .width = w.width, .opacity = w.opacity, .hidden = w.hidden};
+}
+
+GhostStyle style_of(const GhostDesc& g) {
+  return {.fill = g.show != "outline",
+          .outline = g.show != "fill",
+          .color = srgb_color(g.color),
+          .opacity = g.opacity,
+          .over = g.over};
+}
+
+bool has_any(const std::vector<BodyLines>& all) {
+  return std::any_of(all.begin(), all.end(), [](const BodyLines& b) { return !b.mesh.edges.empty(); });
+}
+
+}  // namespace
+
+Overlays::Overlays(const SceneDesc& scene, const sim::Model& model, const std::vector<sim::Surface>& surfaces)
+    : scene_(scene),
+      model_(model),
+      drawn_(scene.body.size()),
+      wireframes_(scene.body.size()),
+      ghosts_(scene.body.size()),
+      glyphs_(scene, model, surfaces) {
+  for (std::size_t i = 0; i < scene.body.size(); ++i) {
+    const BodyDesc& body = scene.body[i];
+    if (body.wireframe.show) wireframes_[i] = lines_of(scene, model, surfaces, i, body.wireframe.of);
+    if (body.ghost.show != "none") ghosts_[i] = lines_of_surface(surfaces[i]);
+    labels_.emplace_back(scene, model, surfaces, i);
+  }
+  if (!has_any_in_world()) return;
+  for (std::size_t i = 0; i < scene.body.size(); ++i)
+    if (scene.body[i].surface.fill) drawn_[i] = lines_of_surface(surfaces[i]);
+}
+
+bool Overlays::has_any_in_world() const {
+  const bool labels =
+      std::any_of(labels_.begin(), labels_.end(), [](const Labels& l) { return !l.is_empty(); });
+  return has_any(wireframes_) || has_any(ghosts_) || labels || !glyphs_.is_empty();
+}
+
+void Overlays::see(int frame, const StateRecord& state, const sim::VecX& q) {
+  if (needs_positions()) most_ = std::max(most_, glyphs_.largest_displacement(q));
+  if (!scene_.energy_plot.show) return;
+  const sim::Energies& e = state.energy;
+  const std::array<double, 4> all = {e.kinetic, e.elastic, e.gravitational, e.total()};
+  if (!std::all_of(all.begin(), all.end(), [](double v) { return std::isfinite(v); })) return;
+  const auto [low, high] = std::minmax_element(all.begin(), all.end());
+  const bool first = energies_.empty();
+  axes_.energy = {first ? *low : std::min(axes_.energy[0], *low),
+                  first ? *high : std::max(axes_.energy[1], *high)};
+  energies_[frame] = {state.time, e.kinetic, e.elastic, e.gravitational, e.total()};
+}
+
+std::map<std::string, std::array<double, 2>> Overlays::ranges() const {
+  std::map<std::string, std::array<double, 2>> all;
+  if (scene_.glyphs.displacement_every > 0) all["glyphs.displacement"] = {0.0, most_};
+  if (scene_.energy_plot.show) {
+    all["energy_plot.time"] = {0.0, std::max(1, scene_.time.frames - 1) / scene_.time.fps};
+    all["energy_plot.energy"] = axes_.energy;
+  }
+  return all;
+}
+
+View Overlays::view_of(const render::Camera& camera, const sim::VecX& q) const {
+  View view(camera, scene_.ground);
+  int first_item = 0;
+  for (const BodyLines& body : drawn_) {
+    if (body.mesh.triangles.empty()) continue;
+    view.items().draw(body.mesh.triangles, positions_of(body, q), first_item);
+    first_item += static_cast<int>(body.mesh.triangles.size());
+  }
+  return view;
+}
+
+void Overlays::draw_ghosts(render::Picture& picture, const View& view) const {
+  const sim::Points& X = model_.mesh().X;
+  const Eigen::Map<const sim::VecX> rest(X.data(), X.size());
+  for (std::size_t i = 0; i < ghosts_.size(); ++i) {
+    if (ghosts_[i].mesh.edges.empty()) continue;
+    draw_ghost(picture, view, ghosts_[i].mesh, positions_of(ghosts_[i], rest),
+               style_of(scene_.body[i].ghost));
+  }
+}
+
+void Overlays::draw_wireframes(render::Picture& picture, const View& view, const sim::VecX& q) const {
+  for (std::size_t i = 0; i < wireframes_.size(); ++i) {
+    const BodyLines& lines = wireframes_[i];
+    if (lines.mesh.edges.empty()) continue;
+    const std::vector<render::Vec3> x = positions_of(lines, q);
+    View with_own = view;  // a mesh hides its own lines, whether it is filled or not
+    with_own.items().draw(lines.mesh.triangles, x, own_items(i));
+    draw_wireframe(picture, with_own, lines.mesh, x, own_items(i), style_of(scene_.body[i].wireframe));
+  }
+}
+
+void Overlays::draw_labels(render::Picture& picture, const View& view, const sim::VecX& q) const {
+  for (std::size_t i = 0; i < labels_.size(); ++i) {
+    if (labels_[i].is_empty()) continue;
+    const std::vector<render::Vec3> x = positions_of(labels_[i].lines(), q);
+    View with_own = view;
+    with_own.items().draw(labels_[i].lines().mesh.triangles, x, own_items(i));
+    labels_[i].draw(picture, with_own, x, own_items(i));
+  }
+}
+
+void Overlays::draw(render::Picture& picture, const render::Camera& camera, const sim::State& state) const {
+  if (!has_any_in_world()) return;
+  const View view = view_of(camera, state.q);
+  draw_ghosts(picture, view);
+  draw_wireframes(picture, view, state.q);
+  glyphs_.draw(picture, view, state, most_);
+  draw_labels(picture, view, state.q);
+}
+
+void Overlays::draw_energies(render::Picture& picture, int frame, double above, double beside) const {
+  if (!scene_.energy_plot.show || energies_.empty()) return;
+  std::vector<EnergySample> so_far;
+  for (const auto& [of, sample] : energies_)
+    if (of <= frame) so_far.push_back(sample);
+  const auto found = ranges();
+  draw_energy_plot(picture, so_far, {found.at("energy_plot.time"), axes_.energy}, scene_.energy_plot.place,
+                   above, beside);
+}
+
+std::vector<ColorBar> Overlays::bars() const {
+  if (scene_.glyphs.displacement_every == 0 || !(most_ > 0.0)) return {};
+  return {{"displacement", "m", &render::find_colormap(scene_.glyphs.colormap), 0.0, most_}};
+}
+
+std::vector<std::string> Overlays::remarks() const {
+  std::vector<std::string> remarks;
+  const auto shows_field = [](const BodyDesc& body) { return body.shown.field != "none"; };
+  if (scene_.clip && scene_.clip->color && std::all_of(scene_.body.begin(), scene_.body.end(), shows_field))
+    remarks.emplace_back("clip.color has no effect: the bodies' fields colour the cut");
+  if (scene_.glyphs.loads != "none" && model_.load_force(0.0).size() == 0)
+    remarks.emplace_back("glyphs.loads has no effect: no body has a load");
+  for (std::size_t i = 0; i < scene_.body.size(); ++i) {
+    const BodyDesc& body = scene_.body[i];
+    if (!body.surface.fill && !body.wireframe.show) {
+      remarks.push_back(fmt::format(
+          "body.{}.surface.fill = false without body.{}.wireframe.show: the surface of '{}' is not drawn", i,
+          i, body.physics.name));
+    }
+    if (const std::optional<std::string> remark = labels_[i].remark(body.physics.name))
+      remarks.push_back(*remark);
+  }
+  return remarks;
+}
+
+bool needs_sequence(const SceneDesc& scene) {
+  return has_automatic_range(scene) || scene.energy_plot.show || scene.glyphs.displacement_every > 0;
+}
+
+}  // namespace lagomorph::apps

@@ -1,0 +1,87 @@
+#include "apps/overlay/energy_plot.h"
+
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace lagomorph::apps {
+namespace energy_plot_test {
+
+constexpr int width = 640, height = 360;
+
+const EnergyAxes axes{.time = {0.0, 2.0}, .energy = {-5.0, 20.0}};
+
+std::vector<EnergySample> samples(int count) {
+  std::vector<EnergySample> all;
+  for (int i = 0; i < count; ++i) {
+    const double t = 0.1 * i;
+    all.push_back({t, 2.0 * t, 4.0 * t, 20.0 - 10.0 * t, 20.0 - 4.0 * t});
+  }
+  return all;
+}
+
+render::Picture plot(int count, const std::string& place, double above = 0.0) {
+  render::Picture picture{width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height, 128)};
+  draw_energy_plot(picture, samples(count), axes, place, above);
+  return picture;
+}
+
+struct Extent {
+  int left = width, right = -1, top = height, bottom = -1;
+};
+Extent extent(const render::Picture& a, const render::Picture& b) {
+  Extent e;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto at = static_cast<std::size_t>(3 * (y * width + x));
+      if (std::equal(&a.rgb[at], &a.rgb[at] + 3, &b.rgb[at])) continue;
+      e = {std::min(e.left, x), std::max(e.right, x), std::min(e.top, y), std::max(e.bottom, y)};
+    }
+  }
+  return e;
+}
+
+TEST(EnergyPlot, StandsInItsCorner) {
+  render::Picture plain{width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height, 128)};
+  for (const std::string place : {"top_left", "top_right", "bottom_left", "bottom_right"}) {
+    const Extent e = extent(plain, plot(5, place));
+    ASSERT_GT(e.right, e.left) << place;
+    EXPECT_EQ(e.right < width / 2, place.ends_with("left")) << place;
+    EXPECT_EQ(e.bottom < height / 2 + 20, place.starts_with("top")) << place;
+  }
+  EXPECT_EQ(extent(plain, plot(5, "top_left", 20.0)).top, extent(plain, plot(5, "top_left")).top + 20);
+  render::Picture beside = plain;
+  draw_energy_plot(beside, samples(5), axes, "top_right", 0.0, 30.0);
+  EXPECT_EQ(extent(plain, beside).right, extent(plain, plot(5, "top_right")).right - 30);
+}
+
+/// Later frames draw more to the right of the same diagram.
+TEST(EnergyPlot, GrowsAndKeepsItsAxes) {
+  const Extent more = extent(plot(5, "top_left"), plot(15, "top_left"));
+  const Extent all = extent(plot(1, "top_left"), plot(15, "top_left"));
+  EXPECT_GT(more.left, all.left + 10);
+  EXPECT_EQ(more.right, all.right);
+  // Up to 1.4 s of 2 s.
+  const Extent to_the_end = extent(plot(1, "top_left"), plot(21, "top_left"));
+  const double full = to_the_end.right - to_the_end.left;
+  EXPECT_NEAR((all.right - all.left) / full, 0.7, 0.05);
+}
+
+TEST(EnergyPlot, IsNotDrawnWhereThereIsNoRoom) {
+  render::Picture small{60, 40, std::vector<std::uint8_t>(std::size_t{3} * 60 * 40, 128)};
+  const render::Picture before = small;
+  draw_energy_plot(small, samples(5), axes, "top_left");
+  EXPECT_EQ(small.rgb, before.rgb);
+}
+
+TEST(EnergyPlot, OneEnergyForAllTimeIsDrawn) {
+  render::Picture picture{width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height, 128)};
+  const render::Picture before = picture;
+  draw_energy_plot(picture, {{0.0, 0.0, 0.0, 0.0, 0.0}}, {.time = {0.0, 1.0}, .energy = {0.0, 0.0}},
+                   "top_left");
+  EXPECT_NE(picture.rgb, before.rgb);
+}
+
+}  // namespace energy_plot_test
+}  // namespace lagomorph::apps

@@ -1,0 +1,166 @@
+#include "apps/pipeline/overlays.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "apps/error.h"
+#include "apps/pipeline/build_scene.h"
+#include "apps/scene/scene.h"
+#include "tests/support/pictures.h"
+#include "tests/unit/apps/pipeline/run_fixture.h"
+
+/// Overlays of the small bar.
+namespace lagomorph::apps {
+namespace overlays_test {
+
+using tests::Arguments;
+using tests::operator+;
+
+struct Bar {
+  explicit Bar(const std::vector<std::string>& overrides)
+      : scene(load_scene(tests::data_file("run/bar.toml"), overrides)),
+        model(build_model(scene, quiet)),
+        surfaces(drawn_surfaces(scene, model, quiet)),
+        overlays(scene, model, surfaces) {}
+
+  /// Over white.
+  render::Picture picture(int width = 160, int height = 120) const {
+    render::Picture drawn{width, height, {}};
+    drawn.rgb.assign(static_cast<std::size_t>(3 * width * height), 255);
+    overlays.draw(drawn, render::Camera(scene.camera, width, height), model.initial_state());
+    return drawn;
+  }
+  int pixels() const {
+    const render::Picture drawn = picture();
+    return static_cast<int>(
+        std::count_if(drawn.rgb.begin(), drawn.rgb.end(), [](std::uint8_t v) { return v < 250; }));
+  }
+
+  Progress quiet{true};
+  SceneDesc scene;
+  sim::Model model;
+  std::vector<sim::Surface> surfaces;
+  Overlays overlays;
+};
+
+TEST(Overlays, NoneByDefault) {
+  EXPECT_EQ(Bar({}).pixels(), 0);
+  EXPECT_TRUE(Bar({}).overlays.remarks().empty());
+}
+
+TEST(Overlays, WireframesOfSurfaceAndTets) {
+  const int fine = Bar({"body.0.wireframe.show=true"}).pixels();
+  const int tets = Bar({"body.0.wireframe={ show = true, of = 'tets' }"}).pixels();
+  EXPECT_GT(fine, 300);
+  EXPECT_GT(tets, 300);
+  EXPECT_NE(fine, tets);
+  EXPECT_GT(Bar({"body.0.wireframe={ show = true, of = 'tets', hidden = 'all' }"}).pixels(), 1.2 * tets);
+  // Its own tets hide what is behind them whether it is filled or not.
+  EXPECT_EQ(Bar({"body.0.wireframe={ show = true, of = 'tets' }", "body.0.surface.fill=false"}).pixels(),
+            tets);
+}
+
+/// The lines between the four triangles that a quadratic face is drawn by are none of its edges.
+TEST(Overlays, QuadraticTetsHaveTheLinesOfLinearOnes) {
+  const Bar linear({"body.0.wireframe={ show = true, of = 'tets' }"}),
+      quadratic({"body.0.wireframe={ show = true, of = 'tets' }", "body.0.element=quadratic"});
+  const render::Picture a = linear.picture(), b = quadratic.picture();
+  int differ = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) differ += std::abs(a.rgb[i] - b.rgb[i]) > 40 ? 1 : 0;
+  EXPECT_LT(differ, 30);  // of some thousand
+}
+
+TEST(Overlays, ABodyWithoutFillIsNotDrawn) {
+  const Bar bar({"body.0.surface.fill=false"});
+  EXPECT_TRUE(build_render_scene(bar.scene, bar.model, bar.surfaces).meshes.at(0).triangles.empty());
+  ASSERT_EQ(bar.overlays.remarks().size(), 1U);
+  EXPECT_NE(bar.overlays.remarks()[0].find("the surface of 'bar' is not drawn"), std::string::npos);
+}
+
+TEST(Overlays, AFlippedSurfaceIsInsideOut) {
+  const Bar bar({}), flipped({"body.0.surface.flip=true"});
+  const auto a = build_render_scene(bar.scene, bar.model, bar.surfaces).meshes.at(0).triangles.at(3);
+  const auto b =
+      build_render_scene(flipped.scene, flipped.model, flipped.surfaces).meshes.at(0).triangles.at(3);
+  EXPECT_EQ(a[0], b[0]);
+  EXPECT_EQ(a[1], b[2]);
+  EXPECT_EQ(a[2], b[1]);
+}
+
+TEST(Overlays, AClipLeavesWholeTetsAndColorsTheCut) {
+  const Bar whole({"body.0.surface.mesh=''"});
+  const Bar cut({"clip={ point = [0, 0.3, 0], normal = [0, -1, 0], color = [1, 0.5, 0] }"});
+  EXPECT_LT(cut.surfaces[0].triangles().size(), whole.surfaces[0].triangles().size());
+  const auto drawn = build_render_scene(cut.scene, cut.model, cut.surfaces);
+  const render::Mesh& mesh = drawn.meshes.at(0);
+  const auto first = static_cast<std::size_t>(cut.surfaces[0].first_cut_vertex());
+  ASSERT_LT(first, mesh.positions.size());
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    EXPECT_EQ(mesh.colors[v].y(), v < first ? mesh.material.base_color.y() : 0.5F);
+    if (v >= first) {
+      EXPECT_NEAR(mesh.positions[v].y(), 0.3, 0.07);
+    }
+  }
+  EXPECT_TRUE(build_render_scene(whole.scene, whole.model, whole.surfaces).meshes.at(0).colors.empty());
+  EXPECT_LT(Bar({"clip={ point = [0, 0.3, 0], normal = [0, -1, 0] }", "body.0.wireframe.show=true"}).pixels(),
+            0.8 * Bar({"body.0.wireframe={ show = true, of = 'tets' }"}).pixels());
+}
+
+TEST(Overlays, AClipThatLeavesNothingIsTold) {
+  try {
+    Bar({"clip={ point = [0, -9, 0], normal = [0, -1, 0] }"});
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.status, ExitStatus::wrong_input);
+    EXPECT_STREQ(e.what(),
+                 "clip leaves nothing: no tet of any body is on the side that clip.normal points to");
+  }
+}
+
+class OverlayRuns : public tests::ProgramRun {
+protected:
+  /// Pixels of exactly the lines' colour.
+  std::vector<bool> lines(const std::string& run, const std::string& frame) const {
+    const render::Pixels picture = render::read_png(tests::read_all(at(run) / "frames" / frame), frame);
+    const std::vector<std::uint8_t>& rgb = render::tests::bytes_of(picture);
+    std::vector<bool> all;
+    for (std::size_t i = 0; i + 2 < rgb.size(); i += 3)
+      all.push_back(rgb[i] == 255 && rgb[i + 1] == 0 && rgb[i + 2] == 255);
+    return all;
+  }
+};
+
+TEST_F(OverlayRuns, BothBackEndsHaveTheSameLines) {
+  const Arguments with = {"--set", "body.0.wireframe={ show = true, color = [1, 0, 1], width = 3 }", "--set",
+                          "render.channels=[]"};
+  for (const char* const backend : {"raster", "path"}) {
+    backend_ = backend;
+    expect(0, run(backend, with + Arguments{"--set", "time.frames=2"}));
+    EXPECT_FALSE(std::filesystem::exists(at(backend) / "aov"));
+  }
+  const std::vector<bool> raster = lines("raster", "frame_0001.png");
+  EXPECT_GT(std::count(raster.begin(), raster.end(), true), 50);
+  EXPECT_EQ(raster, lines("path", "frame_0001.png"));
+}
+
+TEST_F(OverlayRuns, ABodyOfLinesAloneAndACutOneAreDrawnByBoth) {
+  const Arguments cut = {"--set", "clip={ point = [0, 0.3, 0], normal = [0, -1, 0] }",
+                         "--set", "time.frames=2",
+                         "--set", "body.0.look.field=von_mises"};
+  const Arguments empty = {"--set", "body.0.surface.fill=false", "--set", "time.frames=2"};
+  for (const char* const backend : {"raster", "path"}) {
+    backend_ = backend;
+    expect(0, run(std::string(backend) + "_cut", cut));
+    expect(0, run(std::string(backend) + "_empty", empty));
+  }
+  // The same states as without the cut.
+  expect(0, simulate("plain", {"--set", "time.frames=2"}));
+  EXPECT_EQ(tests::read_all(at("raster_cut") / "states/frame_0001.npy"),
+            tests::read_all(at("plain") / "states/frame_0001.npy"));
+}
+
+}  // namespace overlays_test
+}  // namespace lagomorph::apps
