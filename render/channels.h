@@ -9,9 +9,23 @@
 namespace lagomorph::render {
 
 inline constexpr char color_channel[] = "color";
+/// What is seen through the pixel's centre, at the frame's time and through a pinhole; the ground is a
+/// surface over its whole disc. Where nothing is: 0, but for the depth, which is +inf there [m along the view
+/// axis].
 inline constexpr char depth_channel[] = "depth";
-/// The number of the body that is seen through the pixel's centre, -1 where none is.
+inline constexpr char normal_channel[] = "normal";      // unit shading normal, world, on the camera's side
+inline constexpr char albedo_channel[] = "albedo";      // see albedo.h
+inline constexpr char position_channel[] = "position";  // world [m]
+/// How far the point has gone in the picture since the frame before: x right, y up [pixels].
+inline constexpr char motion_channel[] = "motion";
+/// The number of the body, -1 of the ground and where nothing is, and that of the triangle in the mesh that
+/// is drawn of it, likewise.
 inline constexpr char body_id_channel[] = "body_id";
+inline constexpr char triangle_id_channel[] = "triangle_id";
+
+/// How much of the pixel, as the colour sees it, bodies, visible lights and the ground cover; the ground
+/// counts as it is opaque where it fades. In [0, 1]; the colour of a transparent picture is times it already.
+inline constexpr char alpha_channel[] = "alpha";
 
 /// Paths that the pixel took.
 inline constexpr char sample_count_channel[] = "sample_count";
@@ -37,9 +51,11 @@ inline constexpr int statistics_components = 8;
 /// A row of the one table of channels.
 struct ChannelKind {
   const char* name;
-  int components = 1;  // values a cell
-  int cell = 1;        // side of the square that has its own values [pixels]
+  int components = 1;       // values a cell
+  const char* parts = "X";  // a letter for each, as OpenEXR files call them
+  int cell = 1;             // side of the square that has its own values [pixels]
   bool path_only = false;
+  bool is_layer = true;  // OpenEXR files call it <name>.<letter>; false: by the letter alone
 };
 std::span<const ChannelKind> channel_kinds();
 std::vector<std::string> channel_names();

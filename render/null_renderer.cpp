@@ -17,6 +17,7 @@ public:
   Image render(const Camera& camera, const FrameInfo&) override {
     Image image(camera.width(), camera.height());
     image.add("color", 3);
+    if (settings_.transparent) image.add(alpha_channel, 1);
     for (const std::string& channel : settings_.channels) {
       if (channel == color_channel) continue;
       const ChannelKind& kind = channel_kind(channel);

@@ -19,6 +19,8 @@ namespace lagomorph::render {
 struct FrameInfo {
   int frame = 0;
   double time = 0.0;  // [s]
+  const Camera* camera_before =
+      nullptr;  // of the frame before, for motion vectors; nullptr: it has not moved
 };
 
 /// A back end. Not for use by two threads at once; a renderer is used by the thread that made it.
@@ -35,6 +37,9 @@ public:
   /// Where a mesh is as the shutter opens, when the scene is `moving`: from there it goes straight to its
   /// positions, after whose update it stands still. Back ends that draw no motion blur ignore it.
   virtual void set_opening(int /*mesh*/, std::span<const Vec3> /*positions*/) {}
+  /// Where a mesh was at the frame before, for motion vectors; after an update of its positions it stands
+  /// still.
+  virtual void set_previous(int /*mesh*/, std::span<const Vec3> /*positions*/) {}
   /// Draws "color" (linear) and every channel of settings.channels. The camera's size is the picture's.
   virtual Image render(const Camera&, const FrameInfo&) = 0;
   /// Library versions, device, instruction set: what the pixels' bits depend on. For run.json.

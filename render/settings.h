@@ -35,6 +35,8 @@ struct RenderSettings {
   float exposure = 0.0F;                   // stops: linear light times 2^exposure before the curve
   int png_compression = 1;                 // zlib level, 0 .. 12 (libdeflate's)
   std::vector<std::string> channels;       // written beside the picture: see channel_kinds()
+  std::string channel_format = "npy";      // of their files; only told to the renderer
+  bool transparent = false;  // nothing is seen where nothing is: colour over black, and the channel alpha
   RasterSettings raster;
   PathSettings path;
 };

@@ -208,14 +208,22 @@ render::RenderScene build_render_scene(const SceneDesc& scene, const sim::Model&
   return drawn;
 }
 
+bool draws_motion(const SceneDesc& scene) {
+  const std::vector<std::string>& channels = scene.render.channels;
+  return scene.camera.shutter > 0.0F ||
+         std::find(channels.begin(), channels.end(), render::motion_channel) != channels.end();
+}
+
 void move_meshes(render::Renderer& renderer, const std::vector<sim::Surface>& surfaces, const sim::VecX& q,
-                 const MotionBlur* blur) {
+                 const Motion* motion) {
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const std::vector<render::Vec3> close = to_render(surfaces[i].positions(q));
     renderer.update_positions(static_cast<int>(i), close);
-    if (blur == nullptr) continue;
+    if (motion == nullptr) continue;
+    renderer.set_previous(static_cast<int>(i), to_render(surfaces[i].positions(motion->before)));
+    if (motion->shutter <= 0.0) continue;
     // What a surface is carried to is linear in q.
-    const sim::VecX open = q + blur->shutter * (blur->before - q);
+    const sim::VecX open = q + motion->shutter * (motion->before - q);
     renderer.set_opening(static_cast<int>(i), to_render(surfaces[i].positions(open)));
   }
 }

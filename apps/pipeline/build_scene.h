@@ -32,14 +32,18 @@ std::vector<render::Vec3> to_render(const sim::Points&);
 /// What a renderer draws, the bodies at rest. A body without fill has no triangles.
 render::RenderScene build_render_scene(const SceneDesc&, const sim::Model&, const std::vector<sim::Surface>&);
 
-/// Of a shutter that is open for this part of the time since the state before, until the frame.
-struct MotionBlur {
-  double shutter;
+/// Whether a picture needs the state before: of motion blur and motion vectors.
+bool draws_motion(const SceneDesc&);
+
+/// The state before: for motion vectors, and for blur by a shutter that is open for this part of the time
+/// since then, until the frame.
+struct Motion {
   sim::VecX before;
+  double shutter = 0.0;
 };
 
-/// Moves the renderer's meshes to where the surfaces are at q; with `blur`, on a straight line to there.
+/// Moves the renderer's meshes to where the surfaces are at q; with `motion`, on a straight line to there.
 void move_meshes(render::Renderer&, const std::vector<sim::Surface>&, const sim::VecX& q,
-                 const MotionBlur* blur = nullptr);
+                 const Motion* motion = nullptr);
 
 }  // namespace lagomorph::apps

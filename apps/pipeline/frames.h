@@ -14,7 +14,7 @@ namespace lagomorph::apps {
 struct StateFrame {
   FrameJob job;
   sim::State state;
-  std::optional<sim::VecX> before;  // positions of the frame before, when the picture is blurred by motion
+  std::optional<sim::VecX> before;  // positions of the frame before, when the picture tells of motion
   std::optional<StateRecord> made;  // when it was simulated: what is told of it, without its hash
 };
 

@@ -43,10 +43,10 @@ DrawnFrame draw(const PipelineInput& in, const std::optional<render::Camera>& ca
   DrawnFrame drawn{.of = std::move(frame), .image = {}, .camera = {}, .seconds = 0.0};
   if (!drawn.of.job.draw || stop_asked()) return drawn;  // a stopped run still keeps the state
   const Stopwatch watch;
-  std::optional<MotionBlur> blur;
+  std::optional<Motion> motion;
   if (drawn.of.before)
-    blur.emplace(static_cast<double>(in.scene.camera.shutter), std::move(*drawn.of.before));
-  move_meshes(*in.renderer, in.surfaces, drawn.of.state.q, blur ? &*blur : nullptr);
+    motion.emplace(std::move(*drawn.of.before), static_cast<double>(in.scene.camera.shutter));
+  move_meshes(*in.renderer, in.surfaces, drawn.of.state.q, motion ? &*motion : nullptr);
   in.fields.color_meshes(*in.renderer, drawn.of.state.q);
   drawn.image = in.renderer->render(*camera, {drawn.of.job.frame, drawn.of.state.t});
   drawn.camera = camera;

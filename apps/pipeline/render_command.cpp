@@ -11,6 +11,7 @@
 
 #include "apps/commands.h"
 #include "apps/file_io.h"
+#include "apps/pipeline/build_scene.h"
 #include "apps/pipeline/production.h"
 #include "apps/pipeline/stop.h"
 #include "apps/pipeline/stopwatch.h"
@@ -81,8 +82,8 @@ RunLock lock_for_drawing(const RunPaths& paths, const Identity& wanted) {
 /// Those asked for, or all whose states are there.
 FrameRange frames_to_draw(const Options& options, const SceneDesc& scene, const StatesOfRun& states) {
   const FrameRange frames = options.frames ? wanted_frames(options.frames, scene.time.frames) : states.all();
-  // Motion blur begins at the frame before.
-  states.require({scene.camera.shutter > 0.0F ? std::max(frames.first - 1, 0) : frames.first, frames.last});
+  // Motion begins at the frame before.
+  states.require({draws_motion(scene) ? std::max(frames.first - 1, 0) : frames.first, frames.last});
   return frames;
 }
 

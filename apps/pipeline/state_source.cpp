@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/file_io.h"
+#include "apps/pipeline/build_scene.h"
 #include "apps/pipeline/stopwatch.h"
 #include "apps/run/record.h"
 #include "apps/run/state_file.h"
@@ -49,7 +50,7 @@ bool StateSource::simulate(int frame, sim::State& state, StateRecord& record) {
 
 std::optional<StateFrame> StateSource::next(const FrameJob& job) {
   StateFrame frame{.job = job, .state = {}, .before = {}, .made = {}};
-  if (job.draw && job.frame > 0 && scene_.camera.shutter > 0.0F) {
+  if (job.draw && job.frame > 0 && draws_motion(scene_)) {
     const bool at_hand = last_ && last_->frame == job.frame - 1;
     if (!at_hand) last_ = read(job.frame - 1);
     frame.before = last_->q;

@@ -14,6 +14,7 @@
 #include "render/path/filter.h"
 #include "render/path/path_tracer.h"
 #include "render/path/scene_geometry.h"
+#include "render/path/seen_channels.h"
 #include "render/path/tile_means.h"
 #include "render/path/tile_statistics.h"
 
@@ -55,6 +56,7 @@ public:
   void set_scene(const RenderScene& scene) override {
     check_scene(scene);
     scene_ = scene;
+    if (settings_.transparent) scene_.background = Color::Zero();
     arena_.execute([&] { geometry_.emplace(scene_); });
     shading_.emplace(scene_);
   }
@@ -79,6 +81,10 @@ public:
 
   void set_opening(int mesh, std::span<const Vec3> positions) override {
     if (scene_.moving) geometry_->open(mesh, positions);
+  }
+
+  void set_previous(int mesh, std::span<const Vec3> positions) override {
+    geometry_->set_previous(mesh, positions);
   }
 
   Image render(const Camera& camera, const FrameInfo& frame) override {
@@ -106,7 +112,10 @@ public:
       const path::MeanChannels means = {.albedo = mean(denoising_albedo_channel),
                                         .normal = mean(denoising_normal_channel),
                                         .depth = mean(denoising_depth_channel),
-                                        .variance = mean(variance_channel)};
+                                        .variance = mean(variance_channel),
+                                        .alpha = settings_.transparent || wants(alpha_channel)
+                                                     ? image.add(alpha_channel, 1).data()
+                                                     : nullptr};
       std::vector<float>& color = image.add(color_channel, 3);
       draw_color(camera, frame.frame, color, statistics, counts, means);
       if (settings_.path.denoise) {
@@ -120,8 +129,16 @@ public:
                          .depth = {means.depth, pixels}},
                         {});
       }
-      if (wants(depth_channel)) draw_depth(camera, image.add(depth_channel, 1));
-      if (wants(body_id_channel)) draw_body_ids(camera, image.add(body_id_channel, 1));
+      const path::SeenChannels seen = {.depth = wanted(image, depth_channel),
+                                       .normal = wanted(image, normal_channel),
+                                       .albedo = wanted(image, albedo_channel),
+                                       .position = wanted(image, position_channel),
+                                       .motion = wanted(image, motion_channel),
+                                       .body_id = wanted(image, body_id_channel),
+                                       .triangle_id = wanted(image, triangle_id_channel)};
+      const path::SeenScene scene = {*geometry_, *shading_, scene_.meshes, camera,
+                                     frame.camera_before != nullptr ? *frame.camera_before : camera};
+      if (seen.any()) for_tiles(camera, [&](const path::Tile& tile) { write_seen(scene, tile, seen); });
     });
     return image;
   }
@@ -190,52 +207,6 @@ private:
       tracers.local().trace(tile, numbers, color.data(), cells ? &*cells : nullptr, kept);
       if (cells) cells->write(camera.width(), statistics);
       if (means) means->write();
-    });
-  }
-
-  /// One ray through each pixel's centre: `seen(ray, hit, t)` gives the pixel's value of what it meets first,
-  /// a mesh (hit.mesh) or the ground (hit.mesh is none), at a distance of t, infinite where there is nothing.
-  /// The ground is a surface over its whole disc.
-  template <class Seen>
-  void draw_seen(const Camera& camera, std::vector<float>& channel, const Seen& seen) const {
-    for_tiles(camera, [&](const path::Tile& tile) {
-      std::array<Ray, tile_size * tile_size> rays;
-      std::array<path::MeshHit, tile_size * tile_size> hits;
-      std::size_t count = 0;
-      for (int y = tile.y0; y < tile.y1; ++y) {
-        for (int x = tile.x0; x < tile.x1; ++x) {
-          rays[count++] = camera.ray(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
-        }
-      }
-      geometry_->caster().intersect(std::span(rays).first(count), path::Coherence::coherent, hits);
-      std::size_t i = 0;
-      for (int y = tile.y0; y < tile.y1; ++y) {
-        for (int x = tile.x0; x < tile.x1; ++x, ++i) {
-          double t = geometry_->meet_ground(rays[i]);
-          path::MeshHit hit = hits[i];
-          if (hit.mesh != path::MeshHit::none) {
-            const double to_mesh = geometry_->meet(rays[i], hit).t;
-            if (to_mesh > t) hit.mesh = path::MeshHit::none;
-            t = std::min(t, to_mesh);
-          }
-          const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width()) +
-                             static_cast<std::size_t>(x);
-          channel[pixel] = seen(rays[i], hit, t);
-        }
-      }
-    });
-  }
-
-  void draw_depth(const Camera& camera, std::vector<float>& depth) const {
-    draw_seen(camera, depth,
-              [&](const Ray& ray, const path::MeshHit&, double t) { return camera.depth(ray, t); });
-  }
-
-  void draw_body_ids(const Camera& camera, std::vector<float>& ids) const {
-    draw_seen(camera, ids, [&](const Ray&, const path::MeshHit& hit, double) {
-      return hit.mesh == path::MeshHit::none
-                 ? -1.0F
-                 : static_cast<float>(scene_.meshes[static_cast<std::size_t>(hit.mesh)].body_id);
     });
   }
 

@@ -317,7 +317,7 @@ void PathTracer::keep_first_hit(std::uint32_t lane, const SurfacePoint& at, cons
                                 float opacity) {
   FirstHit& hit = first_hits_[lane];
   hit.albedo = albedo;
-  hit.normal = at.normal;
+  hit.normal = at.unbent;
   hit.depth = depth;
   hit.opacity = opacity;
 }

@@ -21,6 +21,13 @@ Vec3 smooth_point(const Vec3& p, const Vec3 (&x)[3], const Vec3 (&n)[3], const f
   return raised;
 }
 
+Vec3 interpolated(const std::vector<Vec3>& x, const Triangle& triangle, double u, double v) {
+  const Eigen::Vector3d a = x[triangle[0]].cast<double>();
+  const Eigen::Vector3d b = x[triangle[1]].cast<double>();
+  const Eigen::Vector3d c = x[triangle[2]].cast<double>();
+  return (a + u * (b - a) + v * (c - a)).cast<float>();
+}
+
 /// n bent as little as needed for the unit direction wo to be above it.
 Vec3 facing(const Vec3& n, const Vec3& wo) {
   constexpr float least = 1e-3F;
@@ -42,6 +49,7 @@ SceneGeometry::SceneGeometry(const RenderScene& scene) : ground_(scene.ground), 
                        m.material.transmission > 0.0F || m.material.subsurface > 0.0F,
                        m.colors,
                        {},
+                       {},
                        {}});
   }
   caster_.build(scene.meshes, moving_);
@@ -53,6 +61,11 @@ void SceneGeometry::move(int mesh, std::span<const Vec3> positions) {
   m.moved = true;
   m.opening.clear();
   m.opening_normals.clear();
+  m.previous.clear();
+}
+
+void SceneGeometry::set_previous(int mesh, std::span<const Vec3> positions) {
+  meshes_[static_cast<std::size_t>(mesh)].previous.assign(positions.begin(), positions.end());
 }
 
 void SceneGeometry::open(int mesh, std::span<const Vec3> positions) {
@@ -151,7 +164,17 @@ SurfacePoint SceneGeometry::arrive(const Ray& ray, const MeshHit& hit, const Tri
     origin.y() = std::max(origin.y(), ground_.height);
     beyond.y() = std::max(beyond.y(), ground_.height);
   }
-  return {origin, facing(shading, wo), beyond, side < 0.0F};
+  return {origin, facing(shading, wo), beyond, side < 0.0F, shading};
+}
+
+Vec3 SceneGeometry::position_at(const MeshHit& hit, const TriangleHit& at) const {
+  const Moving& m = meshes_[hit.mesh];
+  return interpolated(m.positions, m.triangles[hit.triangle], at.u, at.v);
+}
+
+Vec3 SceneGeometry::previous_at(const MeshHit& hit, const TriangleHit& at) const {
+  const Moving& m = meshes_[hit.mesh];
+  return interpolated(m.previous.empty() ? m.positions : m.previous, m.triangles[hit.triangle], at.u, at.v);
 }
 
 std::optional<Color> SceneGeometry::color_at(const MeshHit& hit, const TriangleHit& at) const {
@@ -183,7 +206,8 @@ Vec3 SceneGeometry::ground_point(const Ray& ray, double t) const {
 
 SurfacePoint SceneGeometry::arrive_at_ground(const Ray& ray, double t) const {
   const Vec3 normal(0.0F, ray.direction.y() < 0.0F ? 1.0F : -1.0F, 0.0F);
-  return {offset_along(ground_point(ray, t), normal), facing(normal, -ray.direction)};
+  return {offset_along(ground_point(ray, t), normal), facing(normal, -ray.direction), Vec3::Zero(), false,
+          normal};
 }
 
 Vec3 offset_along(const Vec3& p, const Vec3& n) {

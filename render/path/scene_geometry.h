@@ -16,9 +16,10 @@ namespace lagomorph::render::path {
 struct SurfacePoint {
   Vec3 origin;  // of rays that go on: off the surface on the side of the arrival, so that they do not meet it
                 // again
-  Vec3 normal;  // unit shading normal, on the side of the arrival
+  Vec3 normal;  // unit shading normal, on the side of the arrival, bent for the arrival to be above it
   Vec3 beyond = Vec3::Zero();  // of rays that go through, where the mesh's material lets any
   bool inside = false;         // the arrival is from the back of its triangle
+  Vec3 unbent = Vec3::Zero();  // the normal as the surface has it
 };
 
 /// The meshes and the ground as a ray sees them: what the hierarchy's answers mean in space.
@@ -32,6 +33,8 @@ public:
   /// Where the mesh is at time 0, of a scene that is `moving`; move() makes it stand still.
   void open(int mesh, std::span<const Vec3> positions);
   bool moving() const { return moving_; }
+  /// Where the mesh was at the frame before, for previous_at(); move() makes it stand still.
+  void set_previous(int mesh, std::span<const Vec3> positions);
   /// Makes the normals and the hierarchy follow what has moved.
   void commit();
   const RayCaster& caster() const { return caster_; }
@@ -45,6 +48,9 @@ public:
   TriangleHit meet(const Ray&, const MeshHit&) const;
   /// The surface at a hit.
   SurfacePoint arrive(const Ray&, const MeshHit&, const TriangleHit&) const;
+  /// Where a hit is at time 1, and where that point of the mesh was at the frame before.
+  Vec3 position_at(const MeshHit&, const TriangleHit&) const;
+  Vec3 previous_at(const MeshHit&, const TriangleHit&) const;
   /// Its colour, of a mesh whose vertices have some.
   std::optional<Color> color_at(const MeshHit&, const TriangleHit&) const;
 
@@ -67,6 +73,7 @@ private:
     std::vector<Color> colors;          // a vertex; or none
     std::vector<Vec3> opening;          // positions at time 0; empty when it stands still
     std::vector<Vec3> opening_normals;  // likewise
+    std::vector<Vec3> previous;         // positions at the frame before; empty when it stands still
   };
   Eigen::Vector3d position(const Moving&, std::uint32_t vertex, float time) const;
   Vec3 normal(const Moving&, std::uint32_t vertex, float time) const;

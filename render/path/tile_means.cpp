@@ -46,6 +46,7 @@ void TileMeans::add(int x, int y, const Color& radiance, const FirstHit& hit) {
   p.normal += opacity * hit.normal.cast<double>();
   p.depth += opacity * static_cast<double>(hit.depth);
   p.opacity += opacity;
+  p.alpha += hit.on_light ? 1.0 : opacity;
   ++p.samples;
 }
 
@@ -67,6 +68,7 @@ void TileMeans::write() const {
         channels_.depth[at] = p.opacity > 0.0 ? static_cast<float>(p.depth / p.opacity)
                                               : std::numeric_limits<float>::infinity();
       }
+      if (channels_.alpha != nullptr) channels_.alpha[at] = static_cast<float>(p.alpha / p.samples);
       if (!colors_.empty()) put(channels_.variance, colors_[i].variance());
     }
   }

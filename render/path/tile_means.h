@@ -34,8 +34,10 @@ struct MeanChannels {
   float* normal = nullptr;    // 3
   float* depth = nullptr;     // 1
   float* variance = nullptr;  // 3
+  float* alpha = nullptr;     // 1
   bool any() const {
-    return albedo != nullptr || normal != nullptr || depth != nullptr || variance != nullptr;
+    return albedo != nullptr || normal != nullptr || depth != nullptr || variance != nullptr ||
+           alpha != nullptr;
   }
 };
 
@@ -53,6 +55,7 @@ private:
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     double depth = 0.0;
     double opacity = 0.0;
+    double alpha = 0.0;
     int samples = 0;
   };
 

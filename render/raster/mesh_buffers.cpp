@@ -66,9 +66,19 @@ MeshBuffers::MeshBuffers(const Mesh& mesh)
 
 void MeshBuffers::upload(std::span<const Vec3> positions) {
   fill(position_buffer_, positions);
+  moves_ = false;
   if (!smooth_) return;
   topology_.compute(triangles_, positions, normals_);
   fill(normal_buffer_, std::span<const Vec3>(normals_));
+}
+
+void MeshBuffers::upload_previous(std::span<const Vec3> positions) {
+  if (!previous_buffer_) {
+    glBindVertexArray(vertex_array_.id());
+    attribute(3, previous_buffer_.emplace(), positions.size());
+  }
+  fill(*previous_buffer_, positions);
+  moves_ = true;
 }
 
 void MeshBuffers::upload(std::span<const Color> colors) { fill(color_buffer_, colors); }

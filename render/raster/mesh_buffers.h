@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,8 @@ public:
   explicit MeshBuffers(const Mesh&);
 
   void upload(std::span<const Vec3> positions);
+  /// Where it was at the frame before, attribute 3; new positions make it stand still.
+  void upload_previous(std::span<const Vec3> positions);
   /// Of a colored() mesh.
   void upload(std::span<const Color> colors);
   /// All triangles, with position and, where it has them, normal and colour as attributes 0, 1 and 2.
@@ -28,6 +31,7 @@ public:
   bool smooth() const { return smooth_; }
   bool closed() const { return closed_; }
   bool colored() const { return colored_; }
+  bool moves() const { return moves_; }
 
 private:
   std::vector<Triangle> triangles_;
@@ -35,8 +39,10 @@ private:
   std::vector<Vec3> normals_;
   Material material_;
   bool smooth_, closed_, colored_;
+  bool moves_ = false;
   VertexArray vertex_array_;
   Buffer indices_, position_buffer_, normal_buffer_, color_buffer_;
+  std::optional<Buffer> previous_buffer_;  // made when it is asked for
 };
 
 }  // namespace lagomorph::render::raster

@@ -8,6 +8,7 @@
 
 #include "render/backends.h"
 #include "render/error.h"
+#include "render/raster/data_pass.h"
 #include "render/raster/frame_block.h"
 #include "render/raster/gl_context.h"
 #include "render/raster/gl_objects.h"
@@ -62,6 +63,7 @@ public:
   void set_scene(const RenderScene&) override;
   void update_positions(int mesh, std::span<const Vec3> positions) override;
   void update_colors(int mesh, std::span<const Color> colors) override;
+  void set_previous(int mesh, std::span<const Vec3> positions) override;
   Image render(const Camera&, const FrameInfo&) override;
   std::string description() const override;
 
@@ -76,6 +78,8 @@ private:
     std::vector<MeshBuffers> meshes;
     std::optional<Targets> targets;
     std::optional<Program> mesh_number;   // compiled when it is asked for
+    std::optional<Program> alpha;         // likewise
+    std::optional<DataPass> data;         // likewise
     std::optional<SeenPrograms> colored;  // likewise; used where a mesh has colours of its vertices
     bool has_colors = false;
 
@@ -84,7 +88,7 @@ private:
 
   void check_mesh_number(int mesh) const;
   void upload_surfaces(const RenderScene&);
-  void upload_frame(const Camera&);
+  Mat4 upload_frame(const Camera&, const Camera& before);
   void draw_full_screen() const;
   void draw_ground_cells(const Program&, bool shadowed) const;
   void draw_meshes(const Program&) const;
@@ -94,10 +98,14 @@ private:
   void draw_layers() const;
   void draw_depth() const;
   void draw_body_ids(Image&);
+  void draw_alpha(Image&);
+  void draw_data(Image&, const Mat4& clip_before);
   bool wants(const char* channel) const {
     return std::find(settings_.channels.begin(), settings_.channels.end(), channel) !=
            settings_.channels.end();
   }
+
+  bool draws_alpha() const { return settings_.transparent || wants(alpha_channel); }
 
   RenderSettings settings_;
   RasterSettings raster_;
@@ -124,6 +132,7 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
   }
   context_->make_current();
   scene_ = with_stand_ins(scene);
+  if (settings_.transparent) scene_.background = Color::Zero();
   positions_.clear();
   body_ids_.clear();
   gl_->meshes.clear();
@@ -182,7 +191,14 @@ void RasterRenderer::update_positions(int mesh, std::span<const Vec3> positions)
   lights_are_stale_ = true;
 }
 
-void RasterRenderer::upload_frame(const Camera& camera) {
+void RasterRenderer::set_previous(int mesh, std::span<const Vec3> positions) {
+  check_mesh_number(mesh);
+  context_->make_current();
+  gl_->meshes[static_cast<std::size_t>(mesh)].upload_previous(positions);
+}
+
+/// World to clip of the camera before.
+Mat4 RasterRenderer::upload_frame(const Camera& camera, const Camera& before) {
   const ViewRange range = view_range(camera, positions_, scene_);
   const Mat4 projection = camera.projection(range.near, range.far);
   const auto width = static_cast<float>(camera.width());
@@ -197,9 +213,10 @@ void RasterRenderer::upload_frame(const Camera& camera) {
   glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameBlock), &block_, GL_DYNAMIC_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, gl_->frame.id());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, gl_->surfaces.id());
+  return before.projection(range.near, range.far) * before.view();
 }
 
-Image RasterRenderer::render(const Camera& camera, const FrameInfo&) {
+Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
   context_->make_current();
   std::optional<Targets>& targets = gl_->targets;
   if (!targets || targets->width() != camera.width() || targets->height() != camera.height() ||
@@ -208,12 +225,17 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo&) {
     targets.emplace(camera.width(), camera.height(), raster_.multisample, gl_->has_colors);
   }
   if (lights_are_stale_) gl_->maps.fit(scene_, positions_, block_);
-  upload_frame(camera);
+  const Mat4 clip_before =
+      upload_frame(camera, frame.camera_before != nullptr ? *frame.camera_before : camera);
   gl_->maps.bind_textures();
   if (lights_are_stale_) gl_->maps.draw(gl_->meshes);
   lights_are_stale_ = false;
 
   Image image(camera.width(), camera.height());
+  if (draws_alpha()) {  // of all pixels
+    targets->bind_seen();
+    targets->clear_seen();
+  }
   const PixelRectangle seen = seen_rectangle(camera, positions_, scene_);
   draw_background();
   glScissor(seen.x, seen.y, seen.width, seen.height);
@@ -227,6 +249,13 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo&) {
     targets->read_values(image.add(depth_channel, 1));
   }
   if (wants(body_id_channel)) draw_body_ids(image);
+  if (draws_alpha()) draw_alpha(image);
+  const std::size_t channels = image.channels().size();
+  for (const char* channel :
+       {normal_channel, albedo_channel, position_channel, motion_channel, triangle_id_channel}) {
+    if (wants(channel)) image.add(channel, channel_kind(channel).components);
+  }
+  if (image.channels().size() > channels) draw_data(image, clip_before);
   check_gl("drawing a frame");
   return image;
 }
@@ -253,6 +282,7 @@ void RasterRenderer::draw_meshes(const Program& program) const {
     glUniform1ui(program.location("surface"), surface++);
     glUniform1i(program.location("is_smooth"), mesh.smooth() ? 1 : 0);
     glUniform1i(program.location("is_colored"), mesh.colored() ? 1 : 0);
+    glUniform1i(program.location("moves"), mesh.moves() ? 1 : 0);
     mesh.draw();
   }
 }
@@ -373,6 +403,41 @@ void RasterRenderer::draw_body_ids(Image& image) {
   gl_->targets->read_values(ids);
   for (float& id : ids)
     id = id > 0.0F ? static_cast<float>(body_ids_[static_cast<std::size_t>(id) - 1]) : -1.0F;
+}
+
+/// Of the samples that say what is seen.
+void RasterRenderer::draw_alpha(Image& image) {
+  if (!gl_->alpha) {
+    using Parts = std::initializer_list<const char*>;
+    const std::string samples = "#define SAMPLES " + std::to_string(raster_.multisample) + "\n";
+    gl_->alpha.emplace(
+        "alpha", Parts{shaders::full_screen_vertex},
+        Parts{samples.c_str(), shaders::frame, shaders::ground_point, shaders::alpha_fragment});
+  }
+  gl_->targets->bind_depth();
+  gl_->targets->bind_seen_textures();
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  gl_->alpha->use();
+  draw_full_screen();
+  gl_->targets->read_values(image.add(alpha_channel, 1));
+}
+
+/// Those of DataPass's channels that the image has.
+void RasterRenderer::draw_data(Image& image, const Mat4& clip_before) {
+  std::optional<DataPass>& data = gl_->data;
+  if (!data || data->width() != image.width() || data->height() != image.height() ||
+      data->colors() != gl_->has_colors) {
+    data.reset();
+    data.emplace(image.width(), image.height(), gl_->has_colors);
+  }
+  data->begin(clip_before);
+  if (scene_.ground.enabled) {
+    draw_ground_cells(data->ground(), true);
+    draw_ground_cells(data->ground(), false);
+  }
+  draw_meshes(data->mesh());
+  data->read(image);
 }
 
 std::string RasterRenderer::description() const {

@@ -31,4 +31,10 @@ extern const char* const mesh_depth_fragment;
 extern const char* const mesh_number_fragment;
 extern const char* const ground_depth_fragment;
 
+extern const char* const data_vertex;
+extern const char* const data_outputs;
+extern const char* const data_fragment;
+extern const char* const ground_data_fragment;
+extern const char* const alpha_fragment;
+
 }  // namespace lagomorph::render::raster::shaders
