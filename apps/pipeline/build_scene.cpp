@@ -12,6 +12,7 @@
 #include "apps/file_io.h"
 #include "apps/pipeline/painted_fields.h"
 #include "apps/pipeline/recordings.h"
+#include "apps/scene/panels.h"
 #include "render/atmosphere.h"
 #include "render/error.h"
 #include "render/hdr.h"
@@ -164,7 +165,7 @@ render::RenderScene build_render_scene(const SceneDesc& scene, const sim::Model&
     }
     mesh.positions = to_render(surfaces[i].positions(X));
     mesh.material = scene.body[i].look;
-    if (scene.body[i].shown.field != "none")
+    if (shows_field(scene, i))
       mesh.colors.assign(mesh.positions.size(), mesh.material.base_color);  // until a state is shown
     mesh.smooth = scene.body[i].surface.smooth;
     mesh.body_id = static_cast<int>(i);

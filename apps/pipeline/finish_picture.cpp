@@ -25,9 +25,14 @@ render::Picture finish_picture(const render::Image& image, const SceneDesc& scen
                                const SurfaceFields& fields, int frame, const StateRecord& state) {
   render::Picture picture = render::tone_map(image, scene.render.tone_curve, scene.render.exposure);
   draw_color_bars(picture, fields.bars());
+  draw_scene_caption(picture, scene, frame, state);
+  return picture;
+}
+
+void draw_scene_caption(render::Picture& picture, const SceneDesc& scene, int frame,
+                        const StateRecord& state) {
   draw_caption(picture, caption_text(scene.caption.text, caption_values(scene, frame, state)),
                scene.caption.place);
-  return picture;
 }
 
 }  // namespace lagomorph::apps

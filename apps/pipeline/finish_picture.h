@@ -11,4 +11,7 @@ namespace lagomorph::apps {
 render::Picture finish_picture(const render::Image&, const SceneDesc&, const SurfaceFields&, int frame,
                                const StateRecord& state);
 
+/// The scene's caption over a picture.
+void draw_scene_caption(render::Picture&, const SceneDesc&, int frame, const StateRecord& state);
+
 }  // namespace lagomorph::apps

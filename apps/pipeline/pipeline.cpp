@@ -14,7 +14,6 @@
 #include "apps/pipeline/stop.h"
 #include "apps/pipeline/stopwatch.h"
 #include "apps/pipeline/workers.h"
-#include "render/camera.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -39,7 +38,7 @@ private:
   std::counting_semaphore<> free_;
 };
 
-DrawnFrame draw(const PipelineInput& in, const std::optional<render::Camera>& camera, StateFrame frame) {
+DrawnFrame draw(const PipelineInput& in, StateFrame frame) {
   DrawnFrame drawn{.of = std::move(frame), .image = {}, .seconds = 0.0};
   if (!drawn.of.job.draw || stop_asked()) return drawn;  // a stopped run still keeps the state
   const Stopwatch watch;
@@ -47,8 +46,7 @@ DrawnFrame draw(const PipelineInput& in, const std::optional<render::Camera>& ca
   if (drawn.of.before)
     blur.emplace(static_cast<double>(in.scene.camera.shutter), std::move(*drawn.of.before));
   move_meshes(*in.renderer, in.surfaces, drawn.of.state.q, blur ? &*blur : nullptr);
-  in.fields.color_meshes(*in.renderer, drawn.of.state.q);
-  drawn.image = in.renderer->render(*camera, {drawn.of.job.frame, drawn.of.state.t});
+  drawn.image = in.views.draw(*in.renderer, {drawn.of.job.frame, drawn.of.state.t}, drawn.of.state.q);
   drawn.seconds = watch.seconds();
   return drawn;
 }
@@ -56,11 +54,8 @@ DrawnFrame draw(const PipelineInput& in, const std::optional<render::Camera>& ca
 }  // namespace
 
 PipelineResult run_pipeline(const PipelineInput& in, Progress& progress) {
-  const render::RenderSettings& settings = in.scene.render;
-  std::optional<render::Camera> camera;
-  if (in.renderer != nullptr) camera.emplace(in.scene.camera, settings.width, settings.height);
   StateSource states(in.scene, in.model, in.integrator, in.paths, in.log_newton);
-  const FrameWriter writer(in.paths, in.identity, in.scene, in.records, in.fields, camera.has_value());
+  const FrameWriter writer(in.paths, in.identity, in.scene, in.records, in.views, in.renderer != nullptr);
   BoundedQueue<StateFrame> to_draw(frames_between_stages);
   BoundedQueue<DrawnFrame> to_write(frames_between_stages);
   Turns turns(in.threads);
@@ -92,7 +87,7 @@ PipelineResult run_pipeline(const PipelineInput& in, Progress& progress) {
   }
   workers.guard([&] {  // 2. the renderer draws it in the thread that made it,
     while (std::optional<StateFrame> frame = to_draw.pop()) {
-      if (!to_write.push(turns.take([&] { return draw(in, camera, std::move(*frame)); }))) break;
+      if (!to_write.push(turns.take([&] { return draw(in, std::move(*frame)); }))) break;
     }
     to_write.close();
   });

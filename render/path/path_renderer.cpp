@@ -116,6 +116,12 @@ private:
            settings_.channels.end();
   }
 
+  /// Whether a tile has pixels that are asked for; what is drawn of it does not depend on the others.
+  bool is_drawn(int x, int y) const {
+    const PixelRegion r = settings_.drawn();
+    return settings_.region.empty() || (x < r.x1 && x + tile_size > r.x0 && y < r.y1 && y + tile_size > r.y0);
+  }
+
   template <class Body>
   void for_tiles(const Camera& camera, const Body& body) const {
     const int columns = (camera.width() + tile_size - 1) / tile_size;
@@ -126,6 +132,7 @@ private:
           for (int i = range.begin(); i != range.end(); ++i) {
             const int x = i % columns * tile_size;
             const int y = i / columns * tile_size;
+            if (!is_drawn(x, y)) continue;
             body(path::Tile{x, y, std::min(x + tile_size, camera.width()),
                             std::min(y + tile_size, camera.height())});
           }

@@ -214,7 +214,10 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo&) {
   lights_are_stale_ = false;
 
   Image image(camera.width(), camera.height());
-  const PixelRectangle seen = seen_rectangle(camera, positions_, scene_);
+  const PixelRectangle drawn = drawn_rectangle(settings_, camera.height());
+  const PixelRectangle seen = common_rectangle(seen_rectangle(camera, positions_, scene_), drawn);
+  glScissor(drawn.x, drawn.y, drawn.width, drawn.height);
+  if (!settings_.region.empty()) glEnable(GL_SCISSOR_TEST);
   draw_background();
   glScissor(seen.x, seen.y, seen.width, seen.height);
   glEnable(GL_SCISSOR_TEST);
