@@ -19,6 +19,7 @@ constexpr int block_rows = 8;         // found together
 constexpr float normal_scale = 0.5F;  // of a feature, in which it counts as another surface
 constexpr float albedo_scale = 0.5F;
 constexpr float depth_scale = 0.1F;        // of its logarithm
+constexpr float nowhere = 1e6F;            // depth of where nothing is [m]
 constexpr float ridge = 0.01F;             // keeps features that hardly vary from fitting the noise
 constexpr float residual_share = 0.1F;     // of the variance, left after the first pass
 constexpr float just_noticeable = 0.002F;  // of luminance: below it squares are alike without noise, too
@@ -80,9 +81,6 @@ Guide make_guide(const NoisyPicture& p, std::span<const float> color, float vari
   const auto at = [&](int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(p.width) + static_cast<std::size_t>(x);
   };
-  float farthest = 1e-6F;
-  for (const float z : p.depth)
-    if (std::isfinite(z)) farthest = std::max(farthest, z);
   const auto make = [&](const auto& value) { return plane_of(p.width, p.height, border, value); };
   const auto color_of = [&](int c) {
     return make([&, c](int x, int y) { return color[3 * at(x, y) + static_cast<std::size_t>(c)]; });
@@ -92,8 +90,7 @@ Guide make_guide(const NoisyPicture& p, std::span<const float> color, float vari
       const std::size_t i = at(x, y);
       if (k < 3) return p.normal[3 * i + static_cast<std::size_t>(k)] / normal_scale;
       if (k < 6) return p.albedo[3 * i + static_cast<std::size_t>(k - 3)] / albedo_scale;
-      // Nothing is further than anything, in one plane.
-      const float z = std::isfinite(p.depth[i]) ? std::max(p.depth[i], 1e-6F) : 4.0F * farthest;
+      const float z = std::isfinite(p.depth[i]) ? std::max(p.depth[i], 1e-6F) : nowhere;
       return std::log(z) / depth_scale;
     });
   };
@@ -314,6 +311,10 @@ std::vector<float> run(const Guide& guide, const std::array<Plane, 3>& noisy, co
 }
 
 }  // namespace
+
+int denoising_reach(const DenoiseSettings& settings) {
+  return 2 * (settings.radius + settings.patch_radius) + 2;  // of both passes, and their variances
+}
 
 std::vector<float> denoise(const NoisyPicture& p, const DenoiseSettings& settings) {
   check(p, settings);

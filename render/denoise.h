@@ -32,4 +32,7 @@ struct DenoiseSettings {
 /// Throws SettingsError for sizes that do not agree and values out of range.
 std::vector<float> denoise(const NoisyPicture&, const DenoiseSettings&);
 
+/// How far from a pixel those are that it is found from. [pixels]
+int denoising_reach(const DenoiseSettings&);
+
 }  // namespace lagomorph::render

@@ -26,6 +26,13 @@ struct PathSettings {
   bool denoise = false;          // the picture, see denoise.h; needs 2 samples or more
 };
 
+/// Pixels x0 <= x < x1, y0 <= y < y1, from the top left corner.
+struct PixelRegion {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+};
+
 struct RenderSettings {
   std::string backend = "raster";          // see renderer_names()
   int width = 1280;                        // [pixels], 1 .. 16384
@@ -37,8 +44,15 @@ struct RenderSettings {
   std::vector<std::string> channels;       // written beside the picture: see channel_kinds()
   std::string channel_format = "npy";      // of their files; only told to the renderer
   bool transparent = false;  // nothing is seen where nothing is: colour over black, and the channel alpha
+  std::vector<int> region;   // x0, y0, x1, y1: the others may be anything [pixels]; empty: all
   RasterSettings raster;
   PathSettings path;
+
+  /// What is drawn.
+  PixelRegion drawn() const {
+    if (region.empty()) return {0, 0, width, height};
+    return {region[0], region[1], region[2], region[3]};
+  }
 };
 
 }  // namespace lagomorph::render

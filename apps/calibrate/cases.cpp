@@ -11,10 +11,8 @@
 #include "apps/error.h"
 #include "apps/file_io.h"
 #include "apps/pipeline/build_scene.h"
-#include "apps/pipeline/finish_picture.h"
-#include "apps/pipeline/overlays.h"
 #include "apps/pipeline/stop.h"
-#include "apps/pipeline/surface_fields.h"
+#include "apps/pipeline/views.h"
 #include "apps/run/plan.h"
 #include "apps/run/run_json.h"
 #include "apps/run/state_file.h"
@@ -37,11 +35,9 @@ public:
         info_(info_of(paths_)),
         scene_(load_scene(paths_.scene(), {})),
         states_(paths_, info_.identity, scene_.time.frames),
-        camera_(scene_.camera, scene_.render.width, scene_.render.height),
         model_(build_model(scene_, progress)),
         surfaces_(drawn_surfaces(scene_, model_, progress)),
-        fields_(scene_, model_, surfaces_),
-        overlays_(scene_, model_, surfaces_),
+        views_(scene_, model_, surfaces_),
         rest_(build_render_scene(scene_, model_, surfaces_)),
         threads_(request.threads) {
     scene_.render.channels.clear();
@@ -53,29 +49,23 @@ public:
       frames_ = {all.first, (all.first + all.last) / 2, all.last};
     }
     for (const int frame : frames_) states_.require({frame, frame});
-    if (!needs_sequence(scene_)) return;
-    for (const auto& [frame, record] : states_.records()) {
-      const sim::VecX q = state(frame).q;
-      if (fields_.is_automatic()) fields_.see(q);
-      overlays_.see(frame, record, q);
-    }
+    if (!need_all_states(scene_)) return;
+    for (const auto& [frame, record] : states_.records()) views_.see(frame, record, state(frame).q);
   }
 
   const std::set<int>& frames() const { return frames_; }
   const render::RenderSettings& settings() const { return scene_.render; }
-  const render::Camera& camera() const { return camera_; }
+  render::Camera camera(int frame) const { return views_.camera(frame, state(frame).q); }
   int threads() const { return threads_; }
 
   /// The meshes where they are in a frame.
   render::RenderScene scene(int frame) const {
     const sim::VecX q = state(frame).q;
-    const auto colors = fields_.colors(q);
     render::RenderScene drawn = rest_;
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
       const sim::Points positions = surfaces_[i].positions(q);
       for (std::size_t v = 0; v < drawn.meshes[i].positions.size(); ++v)
         drawn.meshes[i].positions[v] = positions.row(static_cast<Eigen::Index>(v)).transpose().cast<float>();
-      if (!colors[i].empty()) drawn.meshes[i].colors = colors[i];
     }
     return drawn;
   }
@@ -85,9 +75,9 @@ public:
     if (stop_asked()) throw Error(stop_status(), "stopped: no limits were proposed");
     const auto renderer = render::make_renderer(settings, threads);
     renderer->set_scene(scene);
+    const double time = frame / scene_.time.fps;
     const sim::State shown = state(frame);
-    const render::Image image = renderer->render(camera_, {frame, frame / scene_.time.fps});
-    return finish_picture({image, camera_, shown, states_.records().at(frame)}, scene_, fields_, overlays_);
+    return views_.finish(views_.draw(*renderer, {frame, time}, shown.q), shown, states_.records().at(frame));
   }
 
 private:
@@ -110,11 +100,9 @@ private:
   RunInfo info_;
   SceneDesc scene_;
   StatesOfRun states_;
-  render::Camera camera_;
   sim::Model model_;
   std::vector<sim::Surface> surfaces_;
-  SurfaceFields fields_;
-  Overlays overlays_;
+  Views views_;
   render::RenderScene rest_;
   int threads_;
   std::set<int> frames_;
@@ -139,7 +127,7 @@ private:
   void add_frame(int frame) {
     const render::RenderSettings settings = redrawer_.settings();
     const render::RenderScene scene = redrawer_.scene(frame);
-    const Cluster cluster = visible_cluster(scene.meshes, redrawer_.camera(), frame);
+    const Cluster cluster = visible_cluster(scene.meshes, redrawer_.camera(frame), frame);
     const int threads = redrawer_.threads();
     const auto draw = [&](const render::RenderScene& s, const render::RenderSettings& r, int n) {
       return redrawer_.draw(frame, s, r, n);
@@ -163,7 +151,7 @@ private:
     remove_cluster(faulty.meshes[cluster.mesh], cluster);
     add(frame, "removed cluster", false, draw(faulty, settings, threads));
     faulty = scene;
-    move_cluster(faulty.meshes[cluster.mesh], cluster, redrawer_.camera());
+    move_cluster(faulty.meshes[cluster.mesh], cluster, redrawer_.camera(frame));
     add(frame, "moved cluster", false, draw(faulty, settings, threads));
   }
 

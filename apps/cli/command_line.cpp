@@ -110,6 +110,35 @@ void apply_states(Options& o, const std::string& value) {
   o.states_every = n;
 }
 
+void apply_every(Options& o, const std::string& value) {
+  int n = 0;
+  const char* end = value.data() + value.size();
+  const auto [stop, error] = std::from_chars(value.data(), end, n);
+  if (error != std::errc() || stop != end || n < 1)
+    wrong_input(fmt::format("--every {}: must be a whole number, 1 or more", value));
+  o.every = n;
+}
+
+/// X0,Y0,X1,Y1; whether it is in the picture the scene tells.
+void apply_region(Options& o, const std::string& value) {
+  std::vector<int> numbers;
+  for (std::size_t begin = 0; begin <= value.size();) {
+    const std::size_t comma = std::min(value.find(',', begin), value.size());
+    int n = -1;
+    const char* end = value.data() + comma;
+    const auto [stop, error] = std::from_chars(value.data() + begin, end, n);
+    if (error != std::errc() || stop != end || n < 0) numbers.clear();
+    if (error != std::errc() || stop != end || n < 0) break;
+    numbers.push_back(n);
+    begin = comma + 1;
+  }
+  if (numbers.size() != 4 || numbers[0] >= numbers[2] || numbers[1] >= numbers[3]) {
+    wrong_input(fmt::format(
+        "--region {}: must be X0,Y0,X1,Y1 in pixels from the top left corner, X0 < X1, Y0 < Y1", value));
+  }
+  o.region = std::move(numbers);
+}
+
 void apply_levels(Options& o, const std::string& value) {
   if (value.size() != 1 || value[0] < '0' || value[0] > '9')
     wrong_input(fmt::format("--levels {}: must be a whole number in 0 .. 9", value));
@@ -224,13 +253,22 @@ constexpr OptionRow option_rows[] = {
     {"--frames", "A..B", " run simulate render check approve preview export ",
      "only pictures A to B, both included; or one number",
      [](Options& o, const std::string& v) { o.frames = parse_frames(v); }},
+    {"--every", "N", " run render ", "only every Nth picture of them; frames keep their numbers",
+     apply_every},
+    {"--half", nullptr, " run render ",
+     "a draft: half the width and height, a quarter of the samples, to RUN-half",
+     [](Options& o, const std::string&) { o.half = true; }},
+    {"--region", "X0,Y0,X1,Y1", " run render ",
+     "only these pixels, without column X1 and row Y1, into RUN-region", apply_region},
+    {"--pattern", "NAME", " export ", "of png: names as shot.####.png, # for the digits of frames",
+     [](Options& o, const std::string& v) { o.pattern = non_empty(v, "--pattern"); }},
     {"--backend", "NAME", " run render ", "raster or path, instead of the scene's", apply_backend},
     {"--threads", "N", " run simulate render check preview export compare info ",
      "at most N threads; never changes a result", apply_threads},
     {"--video", nullptr, " run render ", "also make RUN/<name>.mp4 of the pictures",
      [](Options& o, const std::string&) { o.video = true; }},
     {"--codec", "NAME", " run render ",
-     "of the video: h264 or h265 (.mp4), vp9 (.webm), prores (.mov); implies --video",
+     "h264 or h265 (.mp4), vp9 (.webm), prores (.mov), webp, gif; implies --video",
      [](Options& o, const std::string& v) {
        o.codec = one_of(v, "--codec", video_codecs());
        o.video = true;
@@ -277,9 +315,9 @@ constexpr OptionRow option_rows[] = {
        o.format = one_of(v, "--format", {"svg", "png"});
      }},
     {"--format", "NAME", " export ",
-     "a file a frame: vtu, ply, obj; one of the whole motion: gltf (.glb), usda; by default vtu",
+     "a file a frame: vtu, ply, obj, png; one of the whole motion: gltf (.glb), usda; by default vtu",
      [](Options& o, const std::string& v) {
-       o.format = one_of(v, "--format", {"vtu", "ply", "obj", "gltf", "usda"});
+       o.format = one_of(v, "--format", {"vtu", "ply", "obj", "gltf", "usda", "png"});
      }},
     {"--fields", "A,B,...", " export ",
      "von_mises, J, energy_density, displacement, young, poisson, density, body; by default all in vtu",

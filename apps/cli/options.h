@@ -13,6 +13,10 @@ namespace lagomorph::apps {
 struct FrameRange {
   int first = 0;
   int last = 0;
+  int every = 1;  // only first, first + every, ...
+
+  bool has(int frame) const { return frame >= first && frame <= last && (frame - first) % every == 0; }
+  int count() const { return (last - first) / every + 1; }
 };
 
 /// The command line of every command: options have one meaning everywhere.
@@ -22,6 +26,10 @@ struct Options {
   std::optional<std::filesystem::path> out;     // -o, --out
   std::vector<std::string> set;                 // --set, in order
   std::optional<FrameRange> frames;             // --frames
+  int every = 1;                                // --every
+  bool half = false;                            // --half: drafts
+  std::optional<std::vector<int>> region;       // --region: x0, y0, x1, y1
+  std::optional<std::string> pattern;           // export --pattern
   std::optional<std::string> backend;           // --backend
   int threads = 0;                              // --threads; 0: as many as the process may use
   bool video = false;                           // --video, --codec

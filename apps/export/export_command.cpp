@@ -9,8 +9,10 @@
 #include "apps/cli/print.h"
 #include "apps/commands.h"
 #include "apps/export/formats.h"
+#include "apps/export/pictures.h"
 #include "apps/file_io.h"
 #include "apps/pipeline/build_scene.h"
+#include "apps/pipeline/camera_rig.h"
 #include "apps/pipeline/production.h"
 #include "apps/pipeline/stop.h"
 #include "apps/run/plan.h"
@@ -59,6 +61,10 @@ std::string collection(const std::vector<std::pair<double, std::string>>& files)
   return text + "</Collection>\n</VTKFile>\n";
 }
 
+bool moves(const CameraDesc& c) {
+  return !c.key.empty() || c.turntable.turns || c.turntable.period || c.follow != "none";
+}
+
 /// A file a frame, and for vtu the list of their times. False: asked to stop.
 bool write_frames(const ExportedSequence& sequence, const ExportFormat& format, const fs::path& out,
                   std::vector<std::string>& files) {
@@ -80,6 +86,8 @@ bool write_frames(const ExportedSequence& sequence, const ExportFormat& format, 
 
 ExitStatus export_command(const Options& options) {
   const StopSignals signals;
+  if (options.format == "png") return export_pictures(options);
+  if (options.pattern) wrong_input("--pattern: names of --format png; the other formats have their own");
   Progress progress(options.quiet || options.json);
   const sim::ThreadLimit limit(thread_count(options));
   const RunPaths run(options.inputs.at(0));
@@ -91,15 +99,26 @@ ExitStatus export_command(const Options& options) {
   const FrameRange frames = options.frames ? wanted_frames(options.frames, scene.time.frames) : states.all();
   states.require(frames);
   const sim::Model model = build_model(scene, progress);
-  const ExportedScene exported{scene, model, build_surfaces(scene, model, progress), fields};
+  const auto state = [&](int frame) {
+    return read_state(run.state(frame), frame, scene.time.fps, model.mesh().vertex_count());
+  };
+  ExportedScene exported{scene, model, build_surfaces(scene, model, progress), fields, scene.camera};
+  if (format.sequence != nullptr) {
+    CameraRig rig(scene, model, exported.surfaces, scene.render.width, scene.render.height);
+    if (rig.needs_all_states())
+      for (const auto& [frame, record] : states.records()) rig.see(state(frame).q);
+    exported.camera = rig.settings(frames.first, state(frames.first).q);
+    if (moves(scene.camera)) {
+      progress.note(
+          fmt::format("the camera stands still in a .{}, as it is in frame {}", format.name, frames.first));
+    }
+  }
   const fs::path out = options.out.value_or(run.root() / "export");
   remove_leftovers(out);
   const ExportedSequence sequence{
       exported,
       frames,
-      [&](int frame) {
-        return read_state(run.state(frame), frame, scene.time.fps, model.mesh().vertex_count());
-      },
+      state,
       stop_asked,
       [&] { progress.frame_done(); },
       [&](int passes) { progress.begin(passes * (frames.last - frames.first + 1)); }};

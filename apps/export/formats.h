@@ -20,6 +20,7 @@ struct ExportedScene {
   const sim::Model& model;
   std::vector<sim::Surface> surfaces;  // what is drawn of each body
   std::vector<std::string> fields;     // names in sim::field_table()
+  render::CameraSettings camera;       // that of the first frame
 };
 
 /// A run of frames, whose states are read as they are asked for: one in memory at a time.

@@ -31,20 +31,21 @@ Json camera_node(const render::Camera& camera) {
           {"rotation", {r.x(), r.y(), r.z(), r.w()}}};
 }
 
-Json camera_json(const SceneDesc& scene) {
+Json camera_json(const ExportedScene& exported) {
+  const SceneDesc& scene = exported.desc;
+  const render::CameraSettings& camera = exported.camera;
   const double aspect = static_cast<double>(scene.render.width) / scene.render.height;
-  const float scale = view_scale(scene.camera);
-  if (scene.camera.orthographic) {
-    const double half = *scene.camera.orthographic / 2.0;
+  const float scale = view_scale(camera);
+  if (camera.orthographic) {
+    const double half = *camera.orthographic / 2.0;
     return {{"type", "orthographic"},
             {"orthographic",
              {{"xmag", half * aspect}, {"ymag", half}, {"znear", kNear * scale}, {"zfar", kFar * scale}}}};
   }
-  return {{"type", "perspective"},
-          {"perspective",
-           {{"aspectRatio", aspect},
-            {"yfov", scene.camera.fov * std::numbers::pi / 180.0},
-            {"znear", kNear * scale}}}};
+  return {
+      {"type", "perspective"},
+      {"perspective",
+       {{"aspectRatio", aspect}, {"yfov", camera.fov * std::numbers::pi / 180.0}, {"znear", kNear * scale}}}};
 }
 
 Json material_json(const MovingMesh& mesh) {
@@ -79,7 +80,8 @@ public:
       frame_at += meshes_[i].vertex_count() * kVec3 * (meshes_[i].has_normals() ? 2 : 1);
     }
     const SceneDesc& desc = sequence_.scene.desc;
-    nodes.push_back(camera_node(render::Camera(desc.camera, desc.render.width, desc.render.height)));
+    nodes.push_back(
+        camera_node(render::Camera(sequence_.scene.camera, desc.render.width, desc.render.height)));
     Json roots = Json::array();
     for (std::size_t i = 0; i < nodes.size(); ++i) roots.push_back(i);
     Json file = {{"asset", {{"version", "2.0"}, {"generator", "Lagomorph " + version()}}}};
@@ -87,7 +89,7 @@ public:
     file["scene"] = 0;
     file["scenes"] = {{{"name", desc.name}, {"nodes", roots}}};
     file["nodes"] = nodes;
-    file["cameras"] = {camera_json(desc)};
+    file["cameras"] = {camera_json(sequence_.scene)};
     file["materials"] = materials;
     file["meshes"] = meshes;
     if (layout_.frames() > 1) file["animations"] = {animation(desc)};

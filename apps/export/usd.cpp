@@ -74,7 +74,7 @@ private:
 
   /// Apertures and focal length are in tenths of a unit; that of a perspective is as of a film 24 mm high.
   void write_camera(const SceneDesc& desc) {
-    const render::CameraSettings& settings = desc.camera;
+    const render::CameraSettings& settings = sequence_.scene.camera;
     const render::Camera camera(settings, desc.render.width, desc.render.height);
     const double aspect = static_cast<double>(desc.render.width) / desc.render.height;
     const double height = settings.orthographic ? 10.0 * *settings.orthographic : 24.0;

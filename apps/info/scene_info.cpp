@@ -149,14 +149,27 @@ void add_time(Report& report, const sim::TimeSettings& time) {
        {"substeps", time.substeps}});
 }
 
+/// What makes the camera another one than it says of itself.
+std::string moves_text(const CameraDesc& c) {
+  std::string text;
+  if (c.view != "none") text.append("; view ").append(c.view);
+  if (c.frame != "none") text.append("; aimed at the bodies' box: ").append(c.frame);
+  if (c.follow != "none") text += "; follows the centre of mass";
+  if (c.turntable.turns) text += fmt::format("; {} turns", *c.turntable.turns);
+  if (c.turntable.period) text += fmt::format("; a turn in {} s", *c.turntable.period);
+  if (!c.key.empty()) text += fmt::format("; {} keys", c.key.size());
+  return text;
+}
+
 void add_pictures(Report& report, const SceneDesc& scene) {
   const render::CameraSettings& camera = scene.camera;
   const std::string projection = camera.orthographic
                                      ? fmt::format("orthographic, {} m high", *camera.orthographic)
                                      : fmt::format("perspective, {} degrees high", camera.fov);
   report.add_text("camera",
-                  fmt::format("{}, from {} to {}", projection, point_text(camera.position.cast<double>()),
-                              point_text(camera.look_at.cast<double>())));
+                  fmt::format("{}, from {} to {}{}", projection, point_text(camera.position.cast<double>()),
+                              point_text(camera.look_at.cast<double>()), moves_text(scene.camera)));
+  if (!scene.panel.empty()) report.add_text("panels", fmt::format("{} in each picture", scene.panel.size()));
   const render::RenderSettings& r = scene.render;
   std::string how = fmt::format("{} x {} by {}", r.width, r.height, r.backend);
   if (r.backend == "path") how += fmt::format(", {} paths a pixel", r.samples);

@@ -13,6 +13,7 @@
 #include "apps/file_io.h"
 #include "apps/pipeline/painted_fields.h"
 #include "apps/pipeline/recordings.h"
+#include "apps/scene/panels.h"
 #include "render/atmosphere.h"
 #include "render/error.h"
 #include "render/hdr.h"
@@ -167,6 +168,15 @@ std::vector<render::Vec3> to_render(const sim::Points& points) {
   return positions;
 }
 
+std::vector<render::Color> plain_colors(const SceneDesc& scene, const sim::Surface& surface,
+                                        std::size_t body) {
+  std::vector<render::Color> colors(static_cast<std::size_t>(surface.vertex_count()),
+                                    scene.body[body].look.base_color);
+  if (scene.clip && scene.clip->color)
+    std::fill(colors.begin() + surface.first_cut_vertex(), colors.end(), *scene.clip->color);
+  return colors;
+}
+
 render::RenderScene build_render_scene(const SceneDesc& scene, const sim::Model& model,
                                        const std::vector<sim::Surface>& surfaces) {
   const sim::VecX X = model.initial_state().q;
@@ -183,12 +193,8 @@ render::RenderScene build_render_scene(const SceneDesc& scene, const sim::Model&
     }
     mesh.positions = to_render(surfaces[i].positions(X));
     mesh.material = scene.body[i].look;
-    if (scene.body[i].shown.field != "none") {
-      mesh.colors.assign(mesh.positions.size(), mesh.material.base_color);  // until a state is shown
-    } else if (scene.clip && scene.clip->color) {
-      mesh.colors.assign(mesh.positions.size(), mesh.material.base_color);
-      std::fill(mesh.colors.begin() + surfaces[i].first_cut_vertex(), mesh.colors.end(), *scene.clip->color);
-    }
+    if (shows_field(scene, i) || (scene.clip && scene.clip->color))
+      mesh.colors = plain_colors(scene, surfaces[i], i);  // until a state is shown
     mesh.smooth = scene.body[i].surface.smooth;
     mesh.body_id = static_cast<int>(i);
     drawn.meshes.push_back(std::move(mesh));

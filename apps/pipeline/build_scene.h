@@ -29,6 +29,9 @@ std::vector<sim::Surface> drawn_surfaces(const SceneDesc&, const sim::Model&, Pr
 /// In single precision, as renderers take them.
 std::vector<render::Vec3> to_render(const sim::Points&);
 
+/// Colours of a body's vertices where no field shows: its own, and the cut's.
+std::vector<render::Color> plain_colors(const SceneDesc&, const sim::Surface&, std::size_t body);
+
 /// What a renderer draws, the bodies at rest. A body without fill has no triangles.
 render::RenderScene build_render_scene(const SceneDesc&, const sim::Model&, const std::vector<sim::Surface>&);
 

@@ -24,13 +24,6 @@ CaptionValues caption_values(const SceneDesc& scene, int frame, const StateRecor
 
 }  // namespace
 
-std::map<std::string, std::array<double, 2>> picture_ranges(const SurfaceFields& fields,
-                                                            const Overlays& overlays) {
-  std::map<std::string, std::array<double, 2>> ranges = fields.ranges();
-  ranges.merge(overlays.ranges());
-  return ranges;
-}
-
 render::Picture finish_picture(const RenderedFrame& frame, const SceneDesc& scene,
                                const SurfaceFields& fields, const Overlays& overlays) {
   render::Picture picture = render::tone_map(frame.image, scene.render.tone_curve, scene.render.exposure);
@@ -48,6 +41,12 @@ render::Picture finish_picture(const RenderedFrame& frame, const SceneDesc& scen
   overlays.draw_energies(picture, frame.state.frame, above, beside);
   draw_caption(picture, caption, scene.caption.place);
   return picture;
+}
+
+void draw_scene_caption(render::Picture& picture, const SceneDesc& scene, int frame,
+                        const StateRecord& state) {
+  draw_caption(picture, caption_text(scene.caption.text, caption_values(scene, frame, state)),
+               scene.caption.place);
 }
 
 }  // namespace lagomorph::apps

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <array>
-#include <map>
-#include <string>
-
 #include "apps/pipeline/overlays.h"
 #include "apps/pipeline/surface_fields.h"
 #include "apps/run/record.h"
@@ -23,11 +19,10 @@ struct RenderedFrame {
   const StateRecord& told;  // of the state
 };
 
-/// The ranges that the pictures of a sequence have in common: of fields by the body's name, of overlays by
-/// theirs.
-std::map<std::string, std::array<double, 2>> picture_ranges(const SurfaceFields&, const Overlays&);
-
 /// Its picture: tone curve, overlays, colour bars, diagram, caption.
 render::Picture finish_picture(const RenderedFrame&, const SceneDesc&, const SurfaceFields&, const Overlays&);
+
+/// The scene's caption over a picture.
+void draw_scene_caption(render::Picture&, const SceneDesc&, int frame, const StateRecord& state);
 
 }  // namespace lagomorph::apps

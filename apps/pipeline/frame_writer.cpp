@@ -7,7 +7,7 @@
 #include "apps/file_io.h"
 #include "apps/hash.h"
 #include "apps/npy.h"
-#include "apps/pipeline/finish_picture.h"
+#include "apps/pipeline/crop.h"
 #include "apps/pipeline/stopwatch.h"
 #include "apps/run/state_file.h"
 #include "render/png.h"
@@ -25,14 +25,8 @@ std::string encode_channel(const render::Channel& channel) {
 }  // namespace
 
 FrameWriter::FrameWriter(const RunPaths& paths, const Identity& identity, const SceneDesc& scene,
-                         const std::map<int, FrameRecord>& records, const SurfaceFields& fields,
-                         const Overlays& overlays, bool draws)
-    : paths_(paths),
-      identity_(identity),
-      scene_(scene),
-      records_(records),
-      fields_(fields),
-      overlays_(overlays) {
+                         const std::map<int, FrameRecord>& records, const Views& views, bool draws)
+    : paths_(paths), identity_(identity), scene_(scene), records_(records), views_(views) {
   make_folder(paths.states());
   make_folder(paths.records());
   if (!draws) return;
@@ -68,22 +62,22 @@ StateRecord FrameWriter::write_state(const sim::State& state, StateRecord record
 PictureRecord FrameWriter::write_picture(const DrawnFrame& drawn, const StateRecord& told) const {
   const render::Image& image = *drawn.image;
   const int frame = drawn.of.job.frame;
-  const render::Picture picture =
-      finish_picture({image, *drawn.camera, drawn.of.state, told}, scene_, fields_, overlays_);
-  const std::string png = render::encode_png(picture, scene_.render.png_compression);
+  const std::string png =
+      render::encode_png(views_.finish(image, drawn.of.state, told), scene_.render.png_compression);
   write_file(paths_.picture(frame), png);
   PictureRecord record;
   record.sha256 = sha256(png);
   record.made_by = identity_.picture_hash();
   if (scene_.render.backend == "path") record.clamp = static_cast<double>(scene_.render.path.clamp);
-  record.ranges = picture_ranges(fields_, overlays_);
+  views_.tell(record);
   for (const std::string& name : scene_.render.channels) {
     const render::Channel* channel = image.find(name);
     if (channel == nullptr) {
       throw Error(ExitStatus::machine,
                   "the renderer '" + scene_.render.backend + "' gave no channel " + name);
     }
-    const std::string bytes = encode_channel(*channel);
+    const std::string bytes =
+        encode_channel(scene_.render.region.empty() ? *channel : cropped(*channel, scene_.render.drawn()));
     write_file(paths_.channel(name, frame), bytes);
     record.channels[name] = sha256(bytes);
   }

@@ -3,8 +3,7 @@
 #include <map>
 
 #include "apps/pipeline/frames.h"
-#include "apps/pipeline/overlays.h"
-#include "apps/pipeline/surface_fields.h"
+#include "apps/pipeline/views.h"
 #include "apps/run/identity.h"
 #include "apps/run/paths.h"
 #include "apps/run/record.h"
@@ -18,7 +17,7 @@ class FrameWriter {
 public:
   /// `records` are those of the frames that are there. Makes the folders.
   FrameWriter(const RunPaths&, const Identity&, const SceneDesc&, const std::map<int, FrameRecord>& records,
-              const SurfaceFields&, const Overlays&, bool draws);
+              const Views&, bool draws);
 
   void write(const DrawnFrame&) const;
 
@@ -30,8 +29,7 @@ private:
   const Identity& identity_;
   const SceneDesc& scene_;
   const std::map<int, FrameRecord>& records_;
-  const SurfaceFields& fields_;
-  const Overlays& overlays_;
+  const Views& views_;
 };
 
 }  // namespace lagomorph::apps

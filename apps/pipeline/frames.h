@@ -4,7 +4,6 @@
 
 #include "apps/run/plan.h"
 #include "apps/run/record.h"
-#include "render/camera.h"
 #include "render/image.h"
 #include "sim/model.h"
 
@@ -20,9 +19,8 @@ struct StateFrame {
 
 struct DrawnFrame {
   StateFrame of;
-  std::optional<render::Image> image;    // when it was drawn
-  std::optional<render::Camera> camera;  // then, by which
-  double seconds = 0.0;                  // spent in drawing it
+  std::optional<render::Image> image;  // when it was drawn
+  double seconds = 0.0;                // spent in drawing it
 };
 
 }  // namespace lagomorph::apps

@@ -14,7 +14,6 @@
 #include "apps/pipeline/stop.h"
 #include "apps/pipeline/stopwatch.h"
 #include "apps/pipeline/workers.h"
-#include "render/camera.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -39,17 +38,17 @@ private:
   std::counting_semaphore<> free_;
 };
 
-DrawnFrame draw(const PipelineInput& in, const std::optional<render::Camera>& camera, StateFrame frame) {
-  DrawnFrame drawn{.of = std::move(frame), .image = {}, .camera = {}, .seconds = 0.0};
+DrawnFrame draw(const PipelineInput& in, StateFrame frame) {
+  DrawnFrame drawn{.of = std::move(frame), .image = {}, .seconds = 0.0};
   if (!drawn.of.job.draw || stop_asked()) return drawn;  // a stopped run still keeps the state
   const Stopwatch watch;
   std::optional<Motion> motion;
   if (drawn.of.before)
     motion.emplace(std::move(*drawn.of.before), static_cast<double>(in.scene.camera.shutter));
-  move_meshes(*in.renderer, in.surfaces, drawn.of.state.q, motion ? &*motion : nullptr);
-  in.fields.color_meshes(*in.renderer, drawn.of.state.q);
-  drawn.image = in.renderer->render(*camera, {drawn.of.job.frame, drawn.of.state.t});
-  drawn.camera = camera;
+  const sim::VecX& q = drawn.of.state.q;
+  move_meshes(*in.renderer, in.surfaces, q, motion ? &*motion : nullptr);
+  drawn.image = in.views.draw(*in.renderer, {drawn.of.job.frame, drawn.of.state.t}, q,
+                              motion ? &motion->before : nullptr);
   drawn.seconds = watch.seconds();
   return drawn;
 }
@@ -57,12 +56,8 @@ DrawnFrame draw(const PipelineInput& in, const std::optional<render::Camera>& ca
 }  // namespace
 
 PipelineResult run_pipeline(const PipelineInput& in, Progress& progress) {
-  const render::RenderSettings& settings = in.scene.render;
-  std::optional<render::Camera> camera;
-  if (in.renderer != nullptr) camera.emplace(in.scene.camera, settings.width, settings.height);
   StateSource states(in.scene, in.model, in.integrator, in.paths, in.log_newton);
-  const FrameWriter writer(in.paths, in.identity, in.scene, in.records, in.fields, in.overlays,
-                           camera.has_value());
+  const FrameWriter writer(in.paths, in.identity, in.scene, in.records, in.views, in.renderer != nullptr);
   BoundedQueue<StateFrame> to_draw(frames_between_stages);
   BoundedQueue<DrawnFrame> to_write(frames_between_stages);
   Turns turns(in.threads);
@@ -94,7 +89,7 @@ PipelineResult run_pipeline(const PipelineInput& in, Progress& progress) {
   }
   workers.guard([&] {  // 2. the renderer draws it in the thread that made it,
     while (std::optional<StateFrame> frame = to_draw.pop()) {
-      if (!to_write.push(turns.take([&] { return draw(in, camera, std::move(*frame)); }))) break;
+      if (!to_write.push(turns.take([&] { return draw(in, std::move(*frame)); }))) break;
     }
     to_write.close();
   });

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "apps/pipeline/frames.h"
-#include "apps/pipeline/overlays.h"
-#include "apps/pipeline/surface_fields.h"
+#include "apps/pipeline/views.h"
 #include "apps/progress/progress.h"
 #include "apps/run/identity.h"
 #include "apps/run/paths.h"
@@ -24,8 +23,7 @@ struct PipelineInput {
   const SceneDesc& scene;
   const sim::Model& model;
   const std::vector<sim::Surface>& surfaces;
-  const SurfaceFields& fields;
-  const Overlays& overlays;
+  const Views& views;
   sim::Integrator& integrator;
   render::Renderer*
       renderer;  // with its scene set; made by the calling thread; nullptr when nothing is drawn

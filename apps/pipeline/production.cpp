@@ -14,11 +14,10 @@
 #include "apps/file_io.h"
 #include "apps/pipeline/build_scene.h"
 #include "apps/pipeline/finish_picture.h"
-#include "apps/pipeline/overlays.h"
 #include "apps/pipeline/pipeline.h"
 #include "apps/pipeline/stop.h"
 #include "apps/pipeline/stopwatch.h"
-#include "apps/pipeline/surface_fields.h"
+#include "apps/pipeline/views.h"
 #include "apps/run/disk_space.h"
 #include "apps/run/gather.h"
 #include "apps/run/inputs.h"
@@ -102,16 +101,10 @@ void prepare_folder(Production& p, RunInfo& info) {
   if (p.states != nullptr) p.states->bring_to(p.paths, p.contents.matching);
 }
 
-/// What all pictures of a sequence have in common.
-struct Common {
-  SurfaceFields& fields;
-  Overlays& overlays;
-};
-
-/// Finds the automatic ranges over all states that RUN holds, and the energies. False: asked to stop.
-bool find_ranges(const Production& p, const sim::Model& model, const Common& common, Progress& progress) {
-  const auto& [fields, overlays] = common;
-  const bool positions = fields.is_automatic() || overlays.needs_positions();
+/// Finds automatic ranges and the box that the camera is fitted to, over all states that RUN holds. False:
+/// asked to stop.
+bool find_ranges(const Production& p, const sim::Model& model, Views& views, Progress& progress) {
+  const bool positions = views.need_positions();
   const std::map<int, FrameRecord> frames = within(p.contents.matching, p.scene.time.frames);
   progress.begin(static_cast<int>(frames.size()));
   for (const auto& [frame, record] : frames) {
@@ -119,26 +112,23 @@ bool find_ranges(const Production& p, const sim::Model& model, const Common& com
     sim::VecX q;
     if (positions)
       q = read_state(p.paths.state(frame), frame, p.scene.time.fps, model.mesh().vertex_count()).q;
-    if (fields.is_automatic()) fields.see(q);
-    overlays.see(frame, *record.state, q);
+    views.see(frame, *record.state, q);
     progress.frame_done();
   }
   progress.end();
-  for (const auto& [body, range] : fields.ranges())
-    progress.note(fmt::format("{}: colours from {:.6g} to {:.6g}", body, range[0], range[1]));
+  for (const std::string& line : views.findings()) progress.note(line);
   return true;
 }
 
-/// What is to be drawn of the frames asked for whose states are there: pictures in other ranges are made
-/// again.
-std::vector<FrameJob> pictures_in_ranges(const Production& p, const Common& common) {
-  const auto ranges = picture_ranges(common.fields, common.overlays);
+/// What is to be drawn of the frames asked for whose states are there: pictures in other ranges, or of
+/// another box, are made again.
+std::vector<FrameJob> pictures_in_ranges(const Production& p, const Views& views) {
   std::vector<FrameJob> jobs;
-  for (int frame = p.frames.first; frame <= p.frames.last; ++frame) {
+  for (int frame = p.frames.first; frame <= p.frames.last; frame += p.frames.every) {
     const auto found = p.contents.matching.find(frame);
     if (found == p.contents.matching.end()) continue;
     const FrameRecord& record = found->second;
-    if (!picture_is_there(p.paths, record) || record.picture->ranges != ranges)
+    if (!picture_is_there(p.paths, record) || !views.drew(*record.picture))
       jobs.push_back({.frame = frame, .simulate = false, .draw = true});
   }
   return jobs;
@@ -146,24 +136,24 @@ std::vector<FrameJob> pictures_in_ranges(const Production& p, const Common& comm
 
 using Pipeline = std::function<PipelineResult(const std::vector<FrameJob>&)>;
 
-/// Where colours or axes span the whole sequence: 1. all states, 2. the range, 3. the pictures.
-PipelineResult simulate_then_draw(Production& p, const sim::Model& model, const Common& common,
-                                  const Pipeline& run, Progress& progress) {
+/// Where colours or the camera depend on the whole sequence: 1. all states, 2. the range, 3. the pictures.
+PipelineResult simulate_then_draw(Production& p, const sim::Model& model, Views& views, const Pipeline& run,
+                                  Progress& progress) {
   std::vector<FrameJob> states;
   for (const FrameJob& job : p.jobs)
     if (job.simulate) states.push_back({.frame = job.frame, .simulate = true, .draw = false});
   PipelineResult made;
   if (!states.empty()) {
-    progress.note("colours and axes span all frames: these are simulated first, then drawn");
+    progress.note("colours, axes or camera depend on all frames: these are simulated first, then drawn");
     made = run(states);
     made.stopped = stop_asked();
     if (made.error || made.stopped) return made;
     p.contents.matching = read_contents(p.paths, p.identity).matching;
   }
-  made.stopped = !find_ranges(p, model, common, progress);
+  made.stopped = !find_ranges(p, model, views, progress);
   if (made.stopped) return made;
 
-  p.jobs = pictures_in_ranges(p, common);
+  p.jobs = pictures_in_ranges(p, views);
   const PipelineResult drawn = run(p.jobs);
   p.jobs.insert(p.jobs.begin(), states.begin(), states.end());
   return {made.frames + drawn.frames, made.states, drawn.pictures, made.failure, drawn.error, false};
@@ -174,13 +164,12 @@ PipelineResult simulate_then_draw(Production& p, const sim::Model& model, const 
 std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress& progress) {
   const sim::Model model = build_model(p.scene, progress);
   const std::vector<sim::Surface> surfaces = drawn_surfaces(p.scene, model, progress);
-  SurfaceFields fields(p.scene, model, surfaces);
-  Overlays overlays(p.scene, model, surfaces);
+  Views views(p.scene, model, surfaces);
   if (p.renderer) {
     const render::RenderScene drawn = build_render_scene(p.scene, model, surfaces);
     for (const std::string& remark : render::renderer_remarks(p.scene.render, p.scene.camera, drawn))
       progress.note(remark);
-    for (const std::string& remark : overlays.remarks()) progress.note(remark);
+    for (const std::string& remark : views.remarks()) progress.note(remark);
     p.renderer->set_scene(drawn);
   }
   const auto integrator = sim::make_integrator(p.scene.time, p.scene.solver, model);
@@ -201,12 +190,11 @@ std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress
     if (p.share) p.lock->take(RunLock::Kind::shared);
   }
   const Pipeline run = [&](const std::vector<FrameJob>& jobs) {
-    return run_pipeline({p.scene, model, surfaces, fields, overlays, *integrator, p.renderer.get(), p.paths,
-                         p.identity, p.contents.matching, jobs, p.threads, p.options.log_newton},
+    return run_pipeline({p.scene, model, surfaces, views, *integrator, p.renderer.get(), p.paths, p.identity,
+                         p.contents.matching, jobs, p.threads, p.options.log_newton},
                         progress);
   };
-  if (p.renderer && needs_sequence(p.scene))
-    return simulate_then_draw(p, model, {fields, overlays}, run, progress);
+  if (p.renderer && need_all_states(p.scene)) return simulate_then_draw(p, model, views, run, progress);
   return run(p.jobs);
 }
 
@@ -237,7 +225,7 @@ ExitStatus make_all(Production& p, RunResult& result, Progress& progress) {
   RunInfo info = new_info(p);
   std::optional<PipelineResult> made;
   std::error_code unused;
-  const bool find_range = p.renderer && needs_sequence(p.scene);
+  const bool find_range = p.renderer && need_all_states(p.scene);
   if (!p.jobs.empty() || find_range || !fs::exists(p.paths.mesh(), unused)) {
     made = make_frames(p, info, progress);
     if (!made) return stop_status();
@@ -270,7 +258,7 @@ ExitStatus produce(Production p, Progress& progress) {
   const Stopwatch watch;
   RunResult result;
   result.run = p.paths.root();
-  result.frames = p.frames.last - p.frames.first + 1;
+  result.frames = p.frames.count();
   const auto tell = [&](const char* status, const std::string& reason) {
     result.status = status;
     result.reason = reason;
@@ -294,6 +282,11 @@ ExitStatus produce(Production p, Progress& progress) {
     if (result.begun) tell("failed", e.what());
     throw;
   }
+}
+
+void check_camera(const SceneDesc& scene) {
+  const render::Camera camera(CameraMoves(scene.camera, scene.time, 1.0).at(0, std::nullopt),
+                              scene.render.width, scene.render.height);
 }
 
 int thread_count(const Options& options) {

@@ -40,6 +40,9 @@ struct Production {
 /// common. Throws as its parts do; nothing is written then, or records are whole and run.json tells of them.
 ExitStatus produce(Production, Progress&);
 
+/// Throws render::SettingsError for a camera that is none.
+void check_camera(const SceneDesc&);
+
 /// `--threads`, or as many as the process may use.
 int thread_count(const Options&);
 

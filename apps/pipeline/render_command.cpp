@@ -17,10 +17,10 @@
 #include "apps/pipeline/stopwatch.h"
 #include "apps/progress/progress.h"
 #include "apps/run/contents.h"
+#include "apps/run/draft.h"
 #include "apps/run/plan.h"
 #include "apps/run/states_of_run.h"
 #include "apps/scene/scene.h"
-#include "render/camera.h"
 #include "render/renderer.h"
 #include "sim/parallel.h"
 
@@ -81,7 +81,8 @@ RunLock lock_for_drawing(const RunPaths& paths, const Identity& wanted) {
 
 /// Those asked for, or all whose states are there.
 FrameRange frames_to_draw(const Options& options, const SceneDesc& scene, const StatesOfRun& states) {
-  const FrameRange frames = options.frames ? wanted_frames(options.frames, scene.time.frames) : states.all();
+  FrameRange frames = options.frames ? wanted_frames(options.frames, scene.time.frames) : states.all();
+  frames.every = options.every;
   // Motion begins at the frame before.
   states.require({draws_motion(scene) ? std::max(frames.first - 1, 0) : frames.first, frames.last});
   return frames;
@@ -90,7 +91,7 @@ FrameRange frames_to_draw(const Options& options, const SceneDesc& scene, const 
 std::vector<FrameJob> missing_pictures(const RunPaths& paths, const RunContents& contents,
                                        const StatesOfRun& states, FrameRange frames) {
   std::vector<FrameJob> jobs;
-  for (int frame = frames.first; frame <= frames.last; ++frame) {
+  for (int frame = frames.first; frame <= frames.last; frame += frames.every) {
     const auto record = contents.matching.find(frame);
     const bool there = record != contents.matching.end() &&
                        record->second.state->sha256 == states.records().at(frame).sha256 &&
@@ -109,16 +110,15 @@ ExitStatus render_command(const Options& options) {
   const sim::ThreadLimit limit(threads);
   const RunPaths source(options.inputs.at(0));
   const RunInfo info = info_of(source);
-  SceneDesc scene = load_scene(source.scene(), options.set);
+  SceneDesc scene = load_scene_as_drawn(source.scene(), options.set, options);
   if (options.backend) scene.render.backend = *options.backend;
-  const render::Camera camera(scene.camera, scene.render.width,
-                              scene.render.height);  // or told before all else
+  check_camera(scene);  // told before all else
   std::unique_ptr<render::Renderer> renderer = render::make_renderer(scene.render, threads);
   const Identity identity = looking_identity(scene, *renderer, source, info.identity);
   const StatesOfRun states(source, info.identity, scene.time.frames);
   const FrameRange frames = frames_to_draw(options, scene, states);
 
-  const RunPaths paths(options.out.value_or(source.root()));
+  const RunPaths paths(options.out.value_or(draft_folder(source.root(), options)));
   std::error_code error;
   std::optional<RunLock> lock;
   if (fs::is_directory(paths.root(), error)) lock.emplace(lock_for_drawing(paths, identity));

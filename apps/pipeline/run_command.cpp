@@ -10,10 +10,10 @@
 #include "apps/pipeline/stop.h"
 #include "apps/progress/progress.h"
 #include "apps/run/contents.h"
+#include "apps/run/draft.h"
 #include "apps/run/plan.h"
 #include "apps/scene/find_scene.h"
 #include "apps/scene/scene.h"
-#include "render/camera.h"
 #include "render/renderer.h"
 #include "sim/parallel.h"
 
@@ -55,12 +55,12 @@ ExitStatus run_scene(const Options& options, bool draws) {
   Progress progress(options.quiet);
   const int threads = thread_count(options);
   const sim::ThreadLimit limit(threads);
-  SceneDesc scene = load_scene(find_scene(options.inputs.at(0)), overrides(options));
+  SceneDesc scene = load_scene_as_drawn(find_scene(options.inputs.at(0)), overrides(options), options);
   if (options.backend) scene.render.backend = *options.backend;
-  const FrameRange frames = wanted_frames(options.frames, scene.time.frames);
-  const RunPaths paths(options.out.value_or(fs::path("out") / scene.name));
-  const render::Camera camera(scene.camera, scene.render.width,
-                              scene.render.height);  // or told before all else
+  FrameRange frames = wanted_frames(options.frames, scene.time.frames);
+  frames.every = options.every;
+  const RunPaths paths(options.out.value_or(draft_folder(fs::path("out") / scene.name, options)));
+  check_camera(scene);  // told before all else
   std::unique_ptr<render::Renderer> renderer;
   if (draws) renderer = render::make_renderer(scene.render, threads);
 

@@ -17,13 +17,14 @@ namespace fs = std::filesystem;
 ExpectedSize expected_size(const std::vector<FrameJob>& jobs, int vertices, int levels,
                            const render::RenderSettings& render) {
   constexpr std::size_t record = 4096;
-  const std::size_t pixels = static_cast<std::size_t>(render.width) * static_cast<std::size_t>(render.height);
+  const std::size_t pixels =
+      static_cast<std::size_t>(render.drawn().width()) * static_cast<std::size_t>(render.drawn().height());
   std::size_t channels = 0;
   for (const std::string& name : render.channels) {
     const render::ChannelKind& kind = render::channel_kind(name);
     const auto cells = [&](int side) { return static_cast<std::size_t>((side + kind.cell - 1) / kind.cell); };
-    channels += cells(render.width) * cells(render.height) * static_cast<std::size_t>(kind.components) *
-                sizeof(float);
+    channels += cells(render.drawn().width()) * cells(render.drawn().height()) *
+                static_cast<std::size_t>(kind.components) * sizeof(float);
   }
   const std::size_t usual_share =
       render.backend == "path" ? 2 : 3;  // of 3 bytes a pixel; noise compresses less

@@ -38,7 +38,7 @@ std::vector<FrameJob> missing_frames(const RunPaths& paths, const std::map<int, 
   std::vector<FrameJob> jobs(static_cast<std::size_t>(last) + 1);
   tbb::parallel_for(0, last + 1, [&](int frame) {
     const auto found = matching.find(frame);
-    const bool wanted = drawn && drawn->first <= frame && frame <= drawn->last;
+    const bool wanted = drawn && drawn->has(frame);
     FrameJob& job = jobs[static_cast<std::size_t>(frame)];
     job.frame = frame;
     job.simulate = found == matching.end() || !is_there(paths.state(frame), found->second.state->sha256);

@@ -100,6 +100,7 @@ FrameRecord from_json(const Json& json) {
     picture.clamp = json.value("clamp", 0.0);
     if (json.contains("ranges"))
       picture.ranges = json["ranges"].get<std::map<std::string, std::array<double, 2>>>();
+    if (json.contains("fitted_box")) picture.fitted_box = json["fitted_box"].get<std::array<double, 6>>();
     picture.rendering_seconds = seconds.at("rendering").get<double>();
     picture.writing_seconds = seconds.at("writing").get<double>();
   }
@@ -147,6 +148,7 @@ Json to_json(const FrameRecord& record) {
     json["channels"] = picture.channels;
     if (picture.clamp > 0.0) json["clamp"] = picture.clamp;
     if (!picture.ranges.empty()) json["ranges"] = picture.ranges;
+    if (picture.fitted_box) json["fitted_box"] = *picture.fitted_box;
     seconds["rendering"] = picture.rendering_seconds;
     seconds["writing"] = picture.writing_seconds;
   }

@@ -36,6 +36,7 @@ struct PictureRecord {
   std::string of_state;                                 // sha256 of the state that it shows
   std::map<std::string, std::string> channels;          // sha256 by the channel's name
   std::map<std::string, std::array<double, 2>> ranges;  // of the field shown on a body, by its name
+  std::optional<std::array<double, 6>> fitted_box;      // of all frames, that the camera is fitted to [m]
   double clamp = 0.0;  // render.path.clamp where it cut indirect light; 0: nothing did
   double rendering_seconds = 0.0;
   double writing_seconds = 0.0;  // tone curve, encoding, files

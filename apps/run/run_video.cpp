@@ -25,7 +25,8 @@ std::string source_hash(const VideoJob& job, const std::map<int, FrameRecord>& r
   VideoJob anywhere = job;  // a moved run has the same video
   anywhere.pictures = anywhere.output = "";
   std::string text = shell_text(ffmpeg_command(anywhere));
-  for (int frame = job.first; frame <= job.last; ++frame) text += "\n" + records.at(frame).picture->sha256;
+  for (int frame = job.first; frame <= job.last; frame += job.every)
+    text += "\n" + records.at(frame).picture->sha256;
   return sha256(text);
 }
 
@@ -46,16 +47,18 @@ std::optional<VideoUpdate> update_video(const RunPaths& paths, const SceneDesc& 
                frames.first,
                frames.last,
                scene.time.fps,
-               scene.render.width,
-               scene.render.height,
+               scene.render.drawn().width(),
+               scene.render.drawn().height(),
                paths.video(scene.name, video_extension(codec)),
-               codec};
-  for (int frame = job.first; frame <= job.last; ++frame) {
+               codec,
+               frames.every};
+  for (int frame = job.first; frame <= job.last; frame += job.every) {
     if (has_picture(records, frame)) continue;
     throw Error(ExitStatus::wrong_input, "--video: " + paths.picture(frame).string() + " is not there");
   }
-  while (has_picture(records, job.first - 1)) --job.first;
-  while (has_picture(records, job.last + 1)) ++job.last;
+  job.last -= (job.last - job.first) % job.every;
+  while (has_picture(records, job.first - job.every)) job.first -= job.every;
+  while (has_picture(records, job.last + job.every)) job.last += job.every;
   VideoRecord wanted{job.output.filename().string(), job.first, job.last, source_hash(job, records), ""};
   if (there && is_up_to_date(paths, *there, wanted)) return VideoUpdate{*there, false};
   if (!make_video(job, stop)) return std::nullopt;

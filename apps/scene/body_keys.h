@@ -8,6 +8,8 @@ namespace lagomorph::apps {
 /// What of the principled material only the path tracer draws.
 void visit_optics(render::Material&, KeyVisitor&);
 void visit_shown_field(ShownField&, KeyVisitor&);
+std::vector<std::string> field_choices();
+std::vector<std::string> colormap_choices();
 void visit_material(sim::MaterialSettings&, KeyVisitor&);
 void visit_damping(sim::DampingSettings&, KeyVisitor&);
 void visit_region(sim::RegionSettings&, KeyVisitor&);

@@ -6,6 +6,7 @@
 
 #include "apps/overlay/caption.h"
 #include "apps/scene/body_keys.h"
+#include "apps/scene/camera_keys.h"
 #include "apps/scene/overlay_keys.h"
 #include "render/color.h"
 #include "render/path/filter.h"
@@ -219,56 +220,6 @@ void visit_body(BodyDesc& b, KeyVisitor& v) {
       p.field, visit_field);
 }
 
-void visit_lens(render::CameraSettings& c, KeyVisitor& v) {
-  v.key({.name = "f_stop",
-         .bounds = at_least(0),
-         .meaning =
-             "focal length over the lens' diameter, for depth of field (path, perspective); 0: all is sharp. "
-             "The focal length is sensor_height / (2 tan(fov/2)), 51 mm at 26.5 degrees, so that things of a "
-             "metre blur much below f/1 only, or with a larger sensor"},
-        &c.f_stop);
-  v.key({.name = "focus_distance",
-         .unit = "m",
-         .bounds = above(0),
-         .meaning = "along the view axis, of the plane that is sharp",
-         .default_note = "look_at's"},
-        &c.focus_distance);
-  v.key({.name = "sensor_height",
-         .unit = "m",
-         .bounds = above(0),
-         .meaning = "of the picture in the camera; 24 mm is 35 mm film"},
-        &c.sensor_height);
-  v.key({.name = "blades",
-         .bounds = between(0, 64),
-         .meaning = "of the aperture, which is a polygon of so many corners; 0: a disc",
-         .holds = [](double n) { return n == 0 || n >= 3; },
-         .rule = "not 1 or 2"},
-        &c.blades);
-  v.key({.name = "blade_rotation", .unit = "degrees", .meaning = "counterclockwise"}, &c.blade_rotation);
-  v.key(
-      {.name = "shutter",
-       .bounds = between(0, 1),
-       .meaning =
-           "part of the time between frames that the shutter is open, until the frame (path): motion blur by "
-           "straight lines from the state before; 0.5 is usual. Frame 0 has none"},
-      &c.shutter);
-}
-
-void visit_camera(render::CameraSettings& c, KeyVisitor& v) {
-  v.key({.name = "position", .unit = "m", .meaning = "of the eye"}, &c.position);
-  v.key({.name = "look_at", .unit = "m", .meaning = "what is in the middle of the picture"}, &c.look_at);
-  v.key({.name = "up", .meaning = "what is up in the picture; not along the view"}, &c.up);
-  v.key({.name = "fov", .unit = "degrees", .bounds = inside(0, 180), .meaning = "vertical field of view"},
-        &c.fov);
-  v.key({.name = "orthographic",
-         .unit = "m",
-         .bounds = above(0),
-         .meaning =
-             "height of the view; given, the projection is orthographic and fov and lens have no effect"},
-        &c.orthographic);
-  visit_lens(c, v);
-}
-
 void visit_raster(render::RasterSettings& r, KeyVisitor& v) {
   v.key({.name = "multisample",
          .meaning = "samples a pixel of the rasterizer",
@@ -342,6 +293,13 @@ void visit_render(render::RenderSettings& r, KeyVisitor& v) {
          .meaning = "written beside the picture, to RUN/aov/NAME/",
          .choices = render::channel_names},
         &r.channels);
+  v.key(
+      {.name = "region",
+       .unit = "pixels",
+       .bounds = at_least(0),
+       .meaning = "[x0, y0, x1, y1]: only these pixels, from the top left corner, without column x1 and row "
+                  "y1; pictures have their size; empty: all"},
+      &r.region);
   v.one({.name = "raster", .meaning = "of the raster back end"}, r.raster, visit_raster);
   v.one({.name = "path", .meaning = "of the path back end"}, r.path, visit_path);
 }
@@ -481,6 +439,10 @@ void visit_scene(SceneDesc& s, KeyVisitor& v) {
   v.one({.name = "solver", .meaning = "how a step is solved"}, s.solver, visit_solver);
   v.list({.name = "body", .meaning = "what moves; at least one", .required = true}, s.body, visit_body);
   v.one({.name = "camera", .meaning = "where the pictures are taken from"}, s.camera, visit_camera);
+  v.list({.name = "panel",
+          .meaning = "several pictures in one, side by side: the scene with another camera or field in each"},
+         s.panel, visit_panel);
+  v.one({.name = "layout", .meaning = "of panels"}, s.layout, visit_layout);
   v.one({.name = "render", .meaning = "the pictures"}, s.render, visit_render);
   v.one({.name = "ground", .meaning = "a floor that receives shadows and fades into the background"},
         s.ground, visit_ground);

@@ -3,7 +3,6 @@
 #include "sim/fields.h"
 
 namespace lagomorph::apps {
-namespace {
 
 std::vector<std::string> field_choices() {
   std::vector<std::string> names = {"none"};
@@ -16,8 +15,6 @@ std::vector<std::string> colormap_choices() {
   names.insert(names.begin(), "auto");
   return names;
 }
-
-}  // namespace
 
 void visit_shown_field(ShownField& s, KeyVisitor& v) {
   v.key({.name = "field",

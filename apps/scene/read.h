@@ -31,6 +31,9 @@ SceneDesc read_scene(std::string_view text, const std::string& origin, std::span
 /// default of the scene's name. Throws Error(wrong_input).
 void resolve_scene(SceneDesc&, const Places&, const std::string& stem);
 
+/// Checks what keys of camera, panels and region must hold together. Throws Error(wrong_input).
+void check_views(const SceneDesc&, const Places&);
+
 /// Checks that the files that the scene names are there and of a known format. Throws Error(wrong_input).
 void check_scene_files(const SceneDesc&, const Places&);
 

@@ -5,7 +5,6 @@
 #include <set>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "apps/error.h"
@@ -168,21 +167,6 @@ void resolve_regions(sim::BodySettings& body, const std::string& path, const Pla
   }
 }
 
-void check_camera(const render::CameraSettings& c, const Places& places) {
-  // In double precision, where the squares of large floats do not overflow.
-  const Eigen::Vector3d view = c.look_at.cast<double>() - c.position.cast<double>();
-  const Eigen::Vector3d up = c.up.cast<double>();
-  if (view.norm() == 0.0) {
-    const char* key = places.has("camera.look_at") ? "camera.look_at" : "camera.position";
-    wrong_input(fmt::format("{}camera.position and camera.look_at are the same point", places.of(key)));
-  }
-  // Below some ten units in the last place of a float the picture's axes are noise.
-  if (up.normalized().cross(view.normalized()).norm() < 1e-6) {
-    const char* fault = up.norm() == 0.0 ? "must not be 0" : "must not be along the view";
-    wrong_input(fmt::format("{}camera.up {}", places.of("camera.up"), fault));
-  }
-}
-
 /// The usual strengths of an image and of the physical model are others than the gradient's.
 void resolve_sky(SkyDesc& sky, const Places& places) {
   if (places.has("sky.strength")) return;
@@ -278,7 +262,7 @@ void resolve_scene(SceneDesc& scene, const Places& places, const std::string& st
     resolve_regions(body.physics, path, places);
     resolve_boundary(body, scene.time.fps, path, places);
   }
-  check_camera(scene.camera, places);
+  check_views(scene, places);
   check_looks(scene, places);
   resolve_sky(scene.sky, places);
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "apps/hash.h"
+#include "apps/scene/camera_moves.h"
 #include "apps/scene/keys.h"
 #include "apps/scene/scene.h"
 #include "apps/scene/values.h"
@@ -155,7 +156,11 @@ std::vector<ResolvedKey> keys_of(const SceneDesc& scene, Part part) {
 
 std::vector<ResolvedKey> simulation_keys(const SceneDesc& scene) { return keys_of(scene, Part::simulation); }
 
-std::vector<ResolvedKey> picture_keys(const SceneDesc& scene) { return keys_of(scene, Part::picture); }
+std::vector<ResolvedKey> picture_keys(const SceneDesc& scene) {
+  std::vector<ResolvedKey> keys = keys_of(scene, Part::picture);
+  if (depends_on_frame_count(scene)) keys.push_back({"time.frames", std::to_string(scene.time.frames)});
+  return keys;
+}
 
 std::vector<fs::path> mesh_files(const fs::path& mesh) {
   if (mesh.extension() != ".node" && mesh.extension() != ".ele") return {mesh};

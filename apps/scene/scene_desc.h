@@ -48,6 +48,49 @@ struct BodyDesc {
   std::vector<std::string> pin_places, spring_places, load_places;
 };
 
+/// The camera at a time. What a key leaves open passes through the keys that give it.
+struct CameraKey {
+  std::optional<double> time;   // [s], or
+  std::optional<double> frame;  // its number
+  std::optional<sim::Vec3> position, look_at, up;
+  std::optional<float> fov, orthographic, zoom, focus_distance, f_stop;
+};
+
+/// A camera that goes around look_at, about +y.
+struct TurntableDesc {
+  std::optional<double> turns;   // over time.frames, so that the frame after the last is the first; or
+  std::optional<double> period;  // of a turn [s]; below 0 clockwise, seen from above
+  double start = 0.0;            // [degrees]
+};
+
+/// The camera, and how it moves.
+struct CameraDesc : render::CameraSettings {
+  std::string view = "none";    // see camera_views(); the side that it looks from
+  std::string frame = "none";   // see camera_frames(); what it is aimed at and fitted to
+  std::string follow = "none";  // or "center_of_mass"
+  float margin = 0.05F;         // of a fitted view, of the picture on each side
+  float zoom = 1.0F;            // of all that is above
+  std::string interpolation = "smooth";
+  std::vector<CameraKey> key;
+  TurntableDesc turntable;
+};
+
+/// One of several pictures in a picture: the scene with another camera or field.
+struct PanelDesc {
+  std::string title;
+  std::string view = "same", frame = "same";  // these as the camera's where they are the same, or not given
+  std::optional<sim::Vec3> position, look_at, up;
+  std::optional<float> fov, orthographic, zoom;
+  std::string field = "same", colormap = "same";  // of all bodies
+  std::optional<std::array<double, 2>> range;
+};
+
+/// How panels are laid out.
+struct LayoutDesc {
+  int columns = 0;  // 0: one row of up to 3 panels, else as near to a square as can be
+  int gap = 4;      // between panels [pixels]
+};
+
 /// A light of a scene: a rectangle or a sun.
 struct LightDesc : render::AreaLight {
   std::string kind = "area";
@@ -76,7 +119,9 @@ struct SceneDesc {
   sim::TimeSettings time;                   // [time]
   sim::SolverSettings solver;               // [solver]
   std::vector<BodyDesc> body;               // [[body]]
-  render::CameraSettings camera;            // [camera]
+  CameraDesc camera;                        // [camera]
+  std::vector<PanelDesc> panel;             // [[panel]]; none: the picture is one
+  LayoutDesc layout;                        // [layout]
   render::RenderSettings render;            // [render], [render.raster], [render.path]
   render::Ground ground;                    // [ground]
   std::vector<LightDesc> light;             // [[light]]; none in the file: one key light by default

@@ -24,6 +24,16 @@ std::string picture_pattern(const fs::path& folder) {
   return (fs::path(text) / "frame_%04d.png").string();
 }
 
+/// Pictures between which others are left out, one after the other as ffmpeg's protocol concat reads them.
+std::string picture_list(const VideoJob& job) {
+  std::string list;
+  for (int frame = job.first; frame <= job.last; frame += job.every) {
+    list += list.empty() ? "concat:file:" : "|file:";
+    list += (job.pictures / fmt::format("frame_{:04}.png", frame)).string();
+  }
+  return list;
+}
+
 std::string filters(const VideoJob& job) {
   std::string text;
   const int right = job.width % 2, bottom = job.height % 2;
@@ -45,6 +55,7 @@ struct Codec {
   const char* extension;
   std::vector<std::string> encoder;
   std::vector<std::string> container;
+  const char* filter = nullptr;  // of an animated picture, in sRGB; nullptr: a video, see filters()
 };
 /// The explicit table: a new codec is one row.
 const std::vector<Codec> codecs = {
@@ -66,6 +77,17 @@ const std::vector<Codec> codecs = {
      ".mov",
      {"-c:v", "prores_ks", "-profile:v", "3", "-vendor", "apl0", "-pix_fmt", "yuv422p10le"},
      {"-f", "mov"}},
+    {"webp",
+     ".webp",
+     {"-c:v", "libwebp_anim", "-quality", "90", "-compression_level", "4", "-pix_fmt", "yuv420p"},
+     {"-loop", "0", "-f", "webp"},
+     "null"},
+    // One palette of all pictures; error diffusion hides its steps.
+    {"gif",
+     ".gif",
+     {"-c:v", "gif"},
+     {"-loop", "0", "-f", "gif"},
+     "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=sierra2_4a"},
 };
 
 const Codec& find_codec(const std::string& name) {
@@ -88,30 +110,26 @@ std::vector<std::string> video_codecs() {
 std::string video_extension(const std::string& codec) { return find_codec(codec).extension; }
 
 std::vector<std::string> ffmpeg_command(const VideoJob& job) {
-  std::vector<std::string> command = {"ffmpeg",
-                                      "-hide_banner",
-                                      "-loglevel",
-                                      "error",
-                                      "-nostdin",
-                                      "-y",
-                                      "-framerate",
-                                      fmt::format("{:.17g}", job.fps),
-                                      "-start_number",
-                                      std::to_string(job.first),
-                                      "-i",
-                                      picture_pattern(job.pictures),
-                                      "-frames:v",
-                                      std::to_string(job.last - job.first + 1),
-                                      "-vf",
-                                      filters(job)};
+  const Codec& codec = find_codec(job.codec);
+  std::vector<std::string> command = {"ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y"};
   const auto add = [&](const std::vector<std::string>& more) {
     command.insert(command.end(), more.begin(), more.end());
   };
-  const Codec& codec = find_codec(job.codec);
+  const int count = (job.last - job.first) / job.every + 1;
+  const std::string rate = fmt::format("{:.17g}", job.fps / job.every);
+  if (job.every == 1) {
+    add({"-framerate", rate, "-start_number", std::to_string(job.first), "-i",
+         picture_pattern(job.pictures)});
+  } else {
+    add({"-f", "png_pipe", "-framerate", rate, "-i", picture_list(job)});
+  }
+  add({"-frames:v", std::to_string(count), "-vf", codec.filter != nullptr ? codec.filter : filters(job)});
   add(codec.encoder);
   // The tables of the sRGB pictures; without them players guess.
-  add({"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range",
-       "tv"});
+  if (codec.filter == nullptr) {
+    add({"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range",
+         "tv"});
+  }
   // The same bytes on any machine: the encoders' decisions depend on their number of threads.
   add({"-threads", "4", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"});
   add(codec.container);

@@ -16,13 +16,15 @@ struct VideoJob {
   int width = 0, height = 0;  // of the pictures
   std::filesystem::path output;
   std::string codec = "h264";  // see video_codecs()
+  int every = 1;               // only every Nth of the pictures
 };
 
-/// h264 and h265 (.mp4, faststart), vp9 (.webm), prores (422 HQ, .mov).
+/// h264 and h265 (.mp4, faststart), vp9 (.webm), prores (422 HQ, .mov), and animated pictures: webp, gif.
 std::vector<std::string> video_codecs();
 /// With its dot. Throws Error(wrong_input) for a codec that is none.
 std::string video_extension(const std::string& codec);
 
+/// Of the pictures first, first + every, ..., that many frames of the sequence apart in time. Videos are
 /// BT.709, yuv420p, of prores yuv422p10; an odd side gets one more line of its last pixels. The same pictures
 /// give the same bytes with the same ffmpeg.
 std::vector<std::string> ffmpeg_command(const VideoJob&);

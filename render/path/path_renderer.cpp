@@ -166,6 +166,15 @@ private:
     return wants(channel) ? image.add(channel, channel_kind(channel).components).data() : nullptr;
   }
 
+  /// Whether a tile has pixels that are asked for; what is drawn of it does not depend on the others.
+  bool is_drawn(int x, int y) const {
+    if (settings_.region.empty()) return true;
+    const PixelRegion r = settings_.drawn();
+    const int around = settings_.path.denoise ? denoising_reach({}) : 0;
+    return x < r.x1 + around && x + tile_size > r.x0 - around && y < r.y1 + around &&
+           y + tile_size > r.y0 - around;
+  }
+
   template <class Body>
   void for_tiles(const Camera& camera, const Body& body) const {
     const int columns = (camera.width() + tile_size - 1) / tile_size;
@@ -176,6 +185,7 @@ private:
           for (int i = range.begin(); i != range.end(); ++i) {
             const int x = i % columns * tile_size;
             const int y = i / columns * tile_size;
+            if (!is_drawn(x, y)) continue;
             body(path::Tile{x, y, std::min(x + tile_size, camera.width()),
                             std::min(y + tile_size, camera.height())});
           }

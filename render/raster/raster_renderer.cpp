@@ -232,11 +232,14 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
   lights_are_stale_ = false;
 
   Image image(camera.width(), camera.height());
+  const PixelRectangle drawn = drawn_rectangle(settings_, camera.height());
   if (draws_alpha()) {  // of all pixels
     targets->bind_seen();
     targets->clear_seen();
   }
-  const PixelRectangle seen = seen_rectangle(camera, positions_, scene_);
+  const PixelRectangle seen = common_rectangle(seen_rectangle(camera, positions_, scene_), drawn);
+  glScissor(drawn.x, drawn.y, drawn.width, drawn.height);
+  if (!settings_.region.empty()) glEnable(GL_SCISSOR_TEST);
   draw_background();
   glScissor(seen.x, seen.y, seen.width, seen.height);
   glEnable(GL_SCISSOR_TEST);

@@ -74,4 +74,15 @@ PixelRectangle seen_rectangle(const Camera& camera, std::span<const std::vector<
           static_cast<int>(high.x() - low.x()), static_cast<int>(high.y() - low.y())};
 }
 
+PixelRectangle drawn_rectangle(const RenderSettings& settings, int height) {
+  const PixelRegion r = settings.drawn();
+  return {r.x0, height - r.y1, r.width(), r.height()};
+}
+
+PixelRectangle common_rectangle(const PixelRectangle& a, const PixelRectangle& b) {
+  const int x = std::max(a.x, b.x), y = std::max(a.y, b.y);
+  return {x, y, std::max(0, std::min(a.x + a.width, b.x + b.width) - x),
+          std::max(0, std::min(a.y + a.height, b.y + b.height) - y)};
+}
+
 }  // namespace lagomorph::render::raster

@@ -5,6 +5,7 @@
 
 #include "render/camera.h"
 #include "render/render_scene.h"
+#include "render/settings.h"
 
 namespace lagomorph::render::raster {
 
@@ -27,5 +28,10 @@ struct PixelRectangle {
 /// Where the meshes and visible lights can be seen: a pixel or two larger than their projections.
 PixelRectangle seen_rectangle(const Camera&, std::span<const std::vector<Vec3>> positions,
                               const RenderScene&);
+
+/// What the settings' region asks for of a picture of this height.
+PixelRectangle drawn_rectangle(const RenderSettings&, int height);
+/// Empty (of no width and height) where they do not meet.
+PixelRectangle common_rectangle(const PixelRectangle&, const PixelRectangle&);
 
 }  // namespace lagomorph::render::raster

@@ -24,8 +24,9 @@ std::string error_of(const std::vector<std::string>& arguments) {
 
 TEST(CommandLine, TakesEveryOption) {
   const CommandLine line =
-      parse({"run", "a.toml", "-o", "out/a", "--set", "time.fps=24", "--frames", "3..7", "--backend", "path",
-             "--threads", "2", "--video", "--force", "--quiet", "--json"});
+      parse({"run",     "a.toml",    "-o",      "out/a",     "--set",  "time.fps=24", "--frames",
+             "3..7",    "--backend", "path",    "--threads", "2",      "--video",     "--force",
+             "--quiet", "--json",    "--every", "4",         "--half", "--region",    "1,2,30,40"});
   EXPECT_EQ(line.text, "");
   const Options& o = line.options;
   EXPECT_EQ(o.command, "run");
@@ -35,6 +36,9 @@ TEST(CommandLine, TakesEveryOption) {
   ASSERT_TRUE(o.frames);
   EXPECT_EQ(o.frames->first, 3);
   EXPECT_EQ(o.frames->last, 7);
+  EXPECT_EQ(o.every, 4);
+  EXPECT_TRUE(o.half);
+  EXPECT_EQ(o.region, (std::vector<int>{1, 2, 30, 40}));
   EXPECT_EQ(o.backend, "path");
   EXPECT_EQ(o.threads, 2);
   EXPECT_TRUE(o.video && o.force && o.quiet && o.json);
@@ -123,13 +127,20 @@ TEST(CommandLine, TellsWhatIsWrong) {
       {{"info", "--keys", "a"}, "unexpected argument 'a': lagomorph info FILE [options]"},
       {{"run", "a", "--thread", "2"}, "unknown option '--thread' of run; did you mean '--threads'?"},
       {{"run", "a", "-x"},
-       "unknown option '-x' of run; known are --help, --version, --out, --set, --frames, --backend, "
-       "--threads, --video, --codec, --static, --log-newton, --force, --quiet, --json"},
+       "unknown option '-x' of run; known are --help, --version, --out, --set, --frames, --every, --half, "
+       "--region, --backend, --threads, --video, --codec, --static, --log-newton, --force, --quiet, --json"},
       {{"simulate", "a", "--video"}, "'--video' is no option of simulate, only of: run, render"},
       {{"run", "a", "--mend=b"}, "'--mend' is no option of run, only of: info"},
       {{"run", "a", "--out"}, "--out needs a value: --out DIR"},
       {{"run", "a", "-o"}, "--out needs a value: --out DIR"},
       {{"run", "a", "--out="}, "--out needs a value: --out DIR"},
+      {{"run", "a", "--every", "0"}, "--every 0: must be a whole number, 1 or more"},
+      {{"run", "a", "--every", "2x"}, "--every 2x: must be a whole number, 1 or more"},
+      {{"run", "a", "--region", "0,0,9"},
+       "--region 0,0,9: must be X0,Y0,X1,Y1 in pixels from the top left corner, X0 < X1, Y0 < Y1"},
+      {{"run", "a", "--region", "9,0,9,4"},
+       "--region 9,0,9,4: must be X0,Y0,X1,Y1 in pixels from the top left corner, X0 < X1, Y0 < Y1"},
+      {{"simulate", "a", "--half"}, "'--half' is no option of simulate, only of: run, render"},
       {{"run", "a", "--set", "time.fps"}, "--set time.fps: must be key.path=VALUE, as in --set time.fps=24"},
       {{"run", "a", "--backend", "vulkan"}, "--backend vulkan: unknown; known are raster, path"},
       {{"run", "a", "--threads", "0"}, "--threads 0: must be a whole number in 1 .. 1024"},

@@ -43,7 +43,7 @@ TEST(WrongScene, Keys) {
       {Wrong{"[time]\nfsp = 30", "a.toml:2:1: unknown key 'fsp'; did you mean 'fps'?"},
        Wrong{"[time]\n  substep = 2", "a.toml:2:3: unknown key 'substep'; did you mean 'substeps'?"},
        Wrong{"[camra]\nfov = 30", "a.toml:1:2: unknown key 'camra'; did you mean 'camera'?"},
-       Wrong{"fov = 30", "a.toml:1:1: unknown key 'fov'; it belongs in [camera]"},
+       Wrong{"fov = 30", "a.toml:1:1: unknown key 'fov'; it belongs in [camera], [[camera.key]], [[panel]]"},
        Wrong{"[render]\nradius = 3",
              "a.toml:2:1: unknown key 'radius'; it belongs in [body.pin.sphere], [body.spring.sphere], "
              "[body.load.sphere], [body.region.sphere], [[body.field]], [ground]"},
@@ -57,7 +57,7 @@ TEST(WrongScene, Keys) {
              "azimuth, turbidity"},
        Wrong{"qqqqqq = 3",
              "a.toml:1:1: unknown key 'qqqqqq'; known at the top are name, time, solver, body, camera, "
-             "render, ground, light, sky, caption, clip, glyphs, energy_plot, background"}});
+             "panel, layout, render, ground, light, sky, caption, clip, glyphs, energy_plot, background"}});
 }
 
 TEST(WrongScene, Overlays) {

@@ -133,6 +133,37 @@ void settle(sim::MaterialSettings& m, RandomFill& random) {
   if (kind == 2 && m.model == "mooney_rivlin") m.C10 = 1e-300, m.C01 = 0.0, m.bulk = 1e300;
 }
 
+/// What camera, panels and region must hold together.
+void settle_views(SceneDesc& s, RandomFill& random) {
+  CameraDesc& c = s.camera;
+  if (c.turntable.turns) c.turntable.period.reset();
+  for (std::size_t i = 0; i < c.key.size(); ++i) {
+    CameraKey& key = c.key[i];
+    key = {};
+    (i % 2 == 0 ? key.time : key.frame)
+        .emplace(i % 2 == 0 ? static_cast<double>(i) / s.time.fps : static_cast<double>(i));
+    key.focus_distance = 1.0F / static_cast<float>(1 + random.below(9));
+  }
+  const Eigen::Vector3d position = c.position.cast<double>(), look_at = c.look_at.cast<double>();
+  c.view = "none";
+  c.up = position.cross(look_at).normalized().cast<float>();
+  s.layout = {.columns = random.below(3), .gap = random.below(5)};
+  if (!s.panel.empty()) s.render.width = s.render.height = 500 + random.below(99);
+  for (std::size_t i = 0; i < s.panel.size(); ++i) {
+    PanelDesc& p = s.panel[i];
+    p.title = "{frame} \u00e9 " + std::to_string(i);
+    p.view = i % 2 == 0 ? "same" : "front";
+    if (p.view == "front") c.up = render::CameraSettings().up;
+    p.position.reset(), p.look_at.reset(), p.up.reset();
+    p.range.reset();
+    p.colormap = "same";
+  }
+  s.render.region.clear();
+  if (s.panel.empty() && s.render.width > 4 && s.render.height > 4)
+    s.render.region = {1, 0, s.render.width, 3};
+  if (!s.panel.empty() || !s.render.region.empty()) s.render.channels = {"depth"};
+}
+
 /// Makes true what keys must hold together.
 void settle(SceneDesc& s, RandomFill& random) {
   s.caption.text = "{frame:04} \u00e9 'it' # " + std::to_string(random.below(9));
@@ -164,9 +195,7 @@ void settle(SceneDesc& s, RandomFill& random) {
     }
     for (sim::SpringSettings& spring : b.physics.spring) spring.vertices.push_back(3);
   }
-  const Eigen::Vector3d position = s.camera.position.cast<double>(),
-                        look_at = s.camera.look_at.cast<double>();
-  s.camera.up = position.cross(look_at).normalized().cast<float>();
+  settle_views(s, random);
   s.ground.fade_start = 0.3F * s.ground.radius;
 }
 

@@ -1,0 +1,190 @@
+#include "apps/pipeline/views.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "apps/pipeline/build_scene.h"
+#include "apps/pipeline/crop.h"
+#include "apps/pipeline/finish_picture.h"
+#include "render/channels.h"
+
+namespace lagomorph::apps {
+namespace {
+
+std::vector<SceneDesc> scenes_of(const SceneDesc& scene) {
+  std::vector<SceneDesc> scenes;
+  for (std::size_t i = 0; i < panel_places(scene).size(); ++i) scenes.push_back(panel_scene(scene, i));
+  return scenes;
+}
+
+/// What a channel holds between panels.
+float nothing_in(const std::string& channel) {
+  if (channel == render::depth_channel || channel == render::denoising_depth_channel)
+    return std::numeric_limits<float>::infinity();
+  return channel == render::body_id_channel || channel == render::triangle_id_channel ? -1.0F : 0.0F;
+}
+
+/// Puts the channels of a panel to their place in the picture's.
+void paste(const render::Image& panel, const PanelPlace& place, render::Image& whole) {
+  for (const render::Channel& channel : panel.channels()) {
+    const auto n = static_cast<std::size_t>(channel.components);
+    const bool is_new = whole.find(channel.name) == nullptr;
+    std::vector<float>& values = whole.add(channel.name, channel.components);
+    if (is_new) std::fill(values.begin(), values.end(), nothing_in(channel.name));
+    const std::size_t row = n * static_cast<std::size_t>(place.width);
+    for (int y = 0; y < place.height; ++y) {
+      const auto from = channel.values.begin() + static_cast<std::ptrdiff_t>(row) * y;
+      const std::ptrdiff_t to = static_cast<std::ptrdiff_t>(n) *
+                                (static_cast<std::ptrdiff_t>(place.y + y) * whole.width() + place.x);
+      std::copy(from, from + static_cast<std::ptrdiff_t>(row), values.begin() + to);
+    }
+  }
+}
+
+void paste(const render::Picture& panel, const PanelPlace& place, render::Picture& whole) {
+  const std::ptrdiff_t row = std::ptrdiff_t{3} * panel.width;
+  for (int y = 0; y < panel.height; ++y) {
+    const auto from = panel.rgb.begin() + row * y;
+    std::copy(from, from + row,
+              whole.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(place.y + y) * whole.width + place.x));
+  }
+}
+
+render::PixelRegion region_of(const PanelPlace& p) { return {p.x, p.y, p.x + p.width, p.y + p.height}; }
+
+}  // namespace
+
+Views::View::View(SceneDesc shown, const PanelPlace& at, const sim::Model& model,
+                  const std::vector<sim::Surface>& surfaces)
+    : scene(std::move(shown)),
+      place(at),
+      fields(scene, model, surfaces),
+      overlays(scene, model, surfaces),
+      rig(scene, model, surfaces, at.width, at.height) {}
+
+Views::Views(const SceneDesc& scene, const sim::Model& model, const std::vector<sim::Surface>& surfaces)
+    : scene_(scene), surfaces_(surfaces) {
+  const std::vector<PanelPlace> places = panel_places(scene);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    views_.push_back(std::make_unique<View>(panel_scene(scene, i), places[i], model, surfaces));
+}
+
+bool Views::need_positions() const {
+  return std::any_of(views_.begin(), views_.end(), [](const std::unique_ptr<View>& v) {
+    return v->fields.is_automatic() || v->rig.needs_all_states() || v->overlays.needs_positions();
+  });
+}
+
+void Views::see(int frame, const StateRecord& state, const sim::VecX& q) {
+  for (const std::unique_ptr<View>& view : views_) {
+    if (view->fields.is_automatic()) view->fields.see(q);
+    if (view->rig.needs_all_states()) view->rig.see(q);
+    view->overlays.see(frame, state, q);
+  }
+}
+
+std::map<std::string, std::array<double, 2>> Views::ranges() const {
+  std::map<std::string, std::array<double, 2>> all;
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    std::map<std::string, std::array<double, 2>> of_view = views_[i]->fields.ranges();
+    of_view.merge(views_[i]->overlays.ranges());
+    for (const auto& [name, range] : of_view)
+      all[scene_.panel.empty() ? name : fmt::format("panel.{}/{}", i, name)] = range;
+  }
+  return all;
+}
+
+/// That of all frames; what is fitted to frame 0 follows from the scene.
+std::optional<std::array<double, 6>> Views::fitted_box() const {
+  for (const std::unique_ptr<View>& view : views_)
+    if (view->rig.needs_all_states()) return view->rig.fitted_box();
+  return std::nullopt;
+}
+
+std::vector<std::string> Views::findings() const {
+  std::vector<std::string> lines;
+  for (const auto& [body, range] : ranges())
+    lines.push_back(fmt::format("{}: from {:.6g} to {:.6g}", body, range[0], range[1]));
+  if (const auto box = fitted_box()) {
+    lines.push_back(fmt::format("camera fitted to {:.4g} x {:.4g} x {:.4g} m", (*box)[3] - (*box)[0],
+                                (*box)[4] - (*box)[1], (*box)[5] - (*box)[2]));
+  }
+  return lines;
+}
+
+void Views::tell(PictureRecord& record) const {
+  record.ranges = ranges();
+  record.fitted_box = fitted_box();
+}
+
+bool Views::drew(const PictureRecord& record) const {
+  return record.ranges == ranges() && record.fitted_box == fitted_box();
+}
+
+std::vector<std::string> Views::remarks() const {
+  std::vector<std::string> all;
+  for (const std::unique_ptr<View>& view : views_)
+    for (std::string& remark : view->overlays.remarks())
+      if (std::find(all.begin(), all.end(), remark) == all.end()) all.push_back(std::move(remark));
+  return all;
+}
+
+/// Panels share the renderer's meshes: each gives them its own colours.
+void Views::color(render::Renderer& renderer, const View& view, const sim::VecX& q) const {
+  view.fields.color_meshes(renderer, q);
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    if (view.scene.body[i].shown.field != "none" || !shows_field(scene_, i)) continue;
+    renderer.update_colors(static_cast<int>(i), plain_colors(scene_, surfaces_[i], i));
+  }
+}
+
+render::Image Views::draw(render::Renderer& renderer, render::FrameInfo frame, const View& view,
+                          const sim::VecX& q, const sim::VecX* before) {
+  std::optional<render::Camera> camera_before;
+  if (before != nullptr && frame.frame > 0) {
+    camera_before = view.rig.at(frame.frame - 1, *before);
+    frame.camera_before = &*camera_before;
+  }
+  return renderer.render(view.rig.at(frame.frame, q), frame);
+}
+
+render::Image Views::draw(render::Renderer& renderer, render::FrameInfo frame, const sim::VecX& q,
+                          const sim::VecX* before) const {
+  if (scene_.panel.empty()) {
+    color(renderer, *views_.front(), q);
+    return draw(renderer, frame, *views_.front(), q, before);
+  }
+  render::Image whole(scene_.render.width, scene_.render.height);
+  for (const std::unique_ptr<View>& view : views_) {
+    color(renderer, *view, q);
+    paste(draw(renderer, frame, *view, q, before), view->place, whole);
+  }
+  return whole;
+}
+
+render::Picture Views::finish(const render::Image& image, const sim::State& state,
+                              const StateRecord& told) const {
+  const auto finished = [&](const View& view, const render::Image& drawn) {
+    return finish_picture({drawn, view.rig.at(state.frame, state.q), state, told}, view.scene, view.fields,
+                          view.overlays);
+  };
+  if (scene_.panel.empty()) return cropped(finished(*views_.front(), image), scene_.render.drawn());
+  render::Picture whole{image.width(), image.height(), {}};
+  whole.rgb.resize(std::size_t{3} * static_cast<std::size_t>(whole.width) *
+                   static_cast<std::size_t>(whole.height));
+  for (const std::unique_ptr<View>& view : views_)
+    paste(finished(*view, cropped(image, region_of(view->place))), view->place, whole);
+  draw_scene_caption(whole, scene_, state.frame, told);
+  return whole;
+}
+
+bool need_all_states(const SceneDesc& scene) {
+  const std::vector<SceneDesc> scenes = scenes_of(scene);
+  return std::any_of(scenes.begin(), scenes.end(),
+                     [](const SceneDesc& s) { return needs_sequence(s) || s.camera.frame == "motion"; });
+}
+
+}  // namespace lagomorph::apps

@@ -1,0 +1,122 @@
+#include "apps/scene/panels.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "apps/scene/scene.h"
+#include "render/png_read.h"
+#include "tests/unit/apps/pipeline/run_fixture.h"
+
+/// Several pictures in one.
+namespace lagomorph::tests {
+namespace panels_test {
+
+render::Pixels picture(const std::filesystem::path& run, int frame) {
+  const std::filesystem::path file = run / ("frames/frame_000" + std::to_string(frame) + ".png");
+  return render::read_png(read_all(file), file.string());
+}
+
+/// The part of a picture from (x, y) on.
+std::vector<std::uint8_t> part(const render::Pixels& p, int x, int y, int width, int height) {
+  const auto& all = std::get<std::vector<std::uint8_t>>(p.samples);
+  std::vector<std::uint8_t> some;
+  for (int row = y; row < y + height; ++row) {
+    const auto begin = all.begin() + std::ptrdiff_t{3} * (std::ptrdiff_t{row} * p.width + x);
+    some.insert(some.end(), begin, begin + std::ptrdiff_t{3} * width);
+  }
+  return some;
+}
+
+class Panels : public ProgramRun {
+protected:
+  void SetUp() override { backend_ = "raster"; }
+};
+
+/// Each is the picture that a run with its camera and field draws at its size.
+TEST_F(Panels, AreThePicturesOfTheirCamerasAndFields) {
+  const Arguments size = {"--set", "render.height=40"},
+                  second = {"--set", "camera.view=right", "--set", "camera.zoom=1.5"},
+                  field = {"--set", "body.0.look.field=displacement", "--set", "body.0.look.color_bar=false"};
+  for (const char* const backend : {"raster", "path"}) {
+    backend_ = backend;
+    const std::string tag = backend;
+    expect(0, run("panels" + tag, size + field +
+                                      Arguments{"--set", "render.width=84", "--set", "panel.0.field=none",
+                                                "--set", "panel.1.view=right", "--set", "panel.1.zoom=1.5"}));
+    expect(0, run("first" + tag, size + Arguments{"--set", "render.width=40"}));
+    expect(0, run("second" + tag, size + second + field + Arguments{"--set", "render.width=40"}));
+    const render::Pixels whole = picture(at("panels" + tag), 2);
+    ASSERT_EQ(whole.width, 84);
+    // Its colour goes another way to the shader, where vertices of the same mesh have some in the next panel.
+    const auto own = part(whole, 0, 0, 40, 40), plain = part(picture(at("first" + tag), 2), 0, 0, 40, 40);
+    for (std::size_t i = 0; i < own.size(); ++i) ASSERT_LE(std::abs(own[i] - plain[i]), 1) << backend << i;
+    EXPECT_EQ(part(whole, 44, 0, 40, 40), part(picture(at("second" + tag), 2), 0, 0, 40, 40)) << backend;
+    EXPECT_EQ(part(whole, 40, 0, 4, 40), std::vector<std::uint8_t>(4 * 40 * 3)) << "the gap";
+  }
+}
+
+TEST_F(Panels, HaveTitlesAndRanges) {
+  const Arguments titled = {"--set", "render.width=400",           "--set", "render.height=200",
+                            "--set", "panel.0.field=displacement", "--set", "panel.1.field=von_mises"};
+  expect(0, run("plain", titled));
+  expect(0, run("titled", titled + Arguments{"--set", "panel.1.title=stress"}));
+  const render::Pixels plain = picture(at("plain"), 1), with = picture(at("titled"), 1);
+  EXPECT_EQ(part(plain, 0, 0, 200, 200), part(with, 0, 0, 200, 200));
+  EXPECT_NE(part(plain, 202, 0, 198, 100), part(with, 202, 0, 198, 100));
+  EXPECT_EQ(part(plain, 202, 100, 198, 100), part(with, 202, 100, 198, 100)) << "at the top";
+  const auto ranges = run_json("plain").at("frames").at(1).at("ranges");
+  EXPECT_TRUE(ranges.contains("panel.0/bar"));
+  EXPECT_TRUE(ranges.contains("panel.1/bar"));
+}
+
+TEST(PanelPlaces, FillThePicture) {
+  apps::SceneDesc scene;
+  scene.render.width = 101;
+  scene.render.height = 77;
+  for (std::size_t count = 1; count < 12; ++count) {
+    scene.panel.resize(count);
+    const std::vector<apps::PanelPlace> places = apps::panel_places(scene);
+    ASSERT_EQ(places.size(), count);
+    int right = 0, bottom = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const apps::PanelPlace& p = places[i];
+      EXPECT_GT(p.width, 0);
+      EXPECT_GT(p.height, 0);
+      right = std::max(right, p.x + p.width);
+      bottom = std::max(bottom, p.y + p.height);
+      if (i > 0 && places[i - 1].y == p.y) {
+        EXPECT_EQ(places[i - 1].x + places[i - 1].width + 4, p.x);
+      }
+    }
+    EXPECT_EQ(right, 101);
+    EXPECT_EQ(bottom, 77);
+  }
+  scene.panel.resize(4);
+  EXPECT_EQ(apps::panel_places(scene)[2].x, 0) << "two by two";
+  scene.layout.columns = 4;
+  EXPECT_EQ(apps::panel_places(scene)[3].y, 0) << "a row";
+}
+
+TEST_F(Panels, WhatIsWrongIsTold) {
+  const auto said = [&](const Arguments& sets) { return expect(2, run("r", sets)); };
+  EXPECT_NE(said({"--set", "panel.0.title=a", "--set", "panel.1.title=b", "--set", "render.width=30"})
+                .find("panel.0: the picture of 30 x 48 leaves it 13 x 48 pixels; at least 16 are needed"),
+            std::string::npos);
+  EXPECT_NE(
+      said({"--set", "panel.0.colormap=magma"}).find("panel.0 has a range or colormap, but shows no field"),
+      std::string::npos);
+  EXPECT_NE(said({"--set", "panel.0.title={nme}"}).find("panel.0.title: "), std::string::npos);
+  EXPECT_NE(said({"--set", "panel.0.title=a", "--set", "render.region=[0, 0, 9, 9]"})
+                .find("render.region does not go together with panels"),
+            std::string::npos);
+  EXPECT_NE(said({"--set", "panel.0.position=[0, 0.3, 0]"})
+                .find("panel.0.position and panel.0.look_at are the same point"),
+            std::string::npos);
+}
+
+}  // namespace panels_test
+}  // namespace lagomorph::tests
