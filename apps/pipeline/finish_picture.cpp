@@ -2,6 +2,7 @@
 
 #include "apps/overlay/caption.h"
 #include "apps/overlay/color_bar.h"
+#include "apps/overlay/matte.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -23,10 +24,13 @@ CaptionValues caption_values(const SceneDesc& scene, int frame, const StateRecor
 
 render::Picture finish_picture(const render::Image& image, const SceneDesc& scene,
                                const SurfaceFields& fields, int frame, const StateRecord& state) {
-  render::Picture picture = render::tone_map(image, scene.render.tone_curve, scene.render.exposure);
-  draw_color_bars(picture, fields.bars());
-  draw_caption(picture, caption_text(scene.caption.text, caption_values(scene, frame, state)),
-               scene.caption.place);
+  render::Picture picture =
+      render::tone_map(image, scene.render.tone_curve, scene.render.exposure, scene.render.transparent);
+  overlay(picture, [&](render::Picture& on) {
+    draw_color_bars(on, fields.bars());
+    draw_caption(on, caption_text(scene.caption.text, caption_values(scene, frame, state)),
+                 scene.caption.place);
+  });
   return picture;
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "apps/overlay/caption.h"
+#include "apps/run/channel_files.h"
 #include "apps/scene/body_keys.h"
 #include "render/color.h"
 #include "render/path/filter.h"
@@ -325,6 +326,14 @@ void visit_render(render::RenderSettings& r, KeyVisitor& v) {
          .meaning = "written beside the picture, to RUN/aov/NAME/",
          .choices = render::channel_names},
         &r.channels);
+  v.key({.name = "channel_format",
+         .meaning = "of their files: NumPy arrays, OpenEXR, or one OpenEXR for the picture and all of them",
+         .choices = channel_formats},
+        &r.channel_format);
+  v.key({.name = "transparent",
+         .meaning = "nothing is seen where nothing is: pictures have an alpha channel, of which the ground's "
+                    "fading edge takes its part"},
+        &r.transparent);
   v.one({.name = "raster", .meaning = "of the raster back end"}, r.raster, visit_raster);
   v.one({.name = "path", .meaning = "of the path back end"}, r.path, visit_path);
 }
@@ -424,7 +433,9 @@ void visit_caption(CaptionDesc& c, KeyVisitor& v) {
 void visit_background(std::optional<render::Color>& color, KeyVisitor& v) {
   v.key({.name = "color",
          .bounds = at_least(0),
-         .meaning = "linear RGB of what the camera sees where nothing is; without it the sky"},
+         .meaning =
+             "linear RGB of what the camera sees where nothing is; without it the sky. Under transparent "
+             "pictures only in their video; without it white"},
         &color);
 }
 

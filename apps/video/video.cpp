@@ -24,27 +24,12 @@ std::string picture_pattern(const fs::path& folder) {
   return (fs::path(text) / "frame_%04d.png").string();
 }
 
-std::string filters(const VideoJob& job) {
-  std::string text;
-  const int right = job.width % 2, bottom = job.height % 2;
-  if (right + bottom > 0) {
-    text = fmt::format("pad={}:{},fillborders=right={}:bottom={}:mode=smear,", job.width + right,
-                       job.height + bottom, right, bottom);
-  }
-  return text + "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+bitexact";
-}
-
-/// The last line that says something.
-std::string last_line(std::string text) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
-  return text.substr(text.find_last_of('\n') + 1);
-}
-
 struct Codec {
   const char* name;
   const char* extension;
   std::vector<std::string> encoder;
   std::vector<std::string> container;
+  bool alpha = false;  // keeps that of the pictures
 };
 /// The explicit table: a new codec is one row.
 const std::vector<Codec> codecs = {
@@ -66,6 +51,11 @@ const std::vector<Codec> codecs = {
      ".mov",
      {"-c:v", "prores_ks", "-profile:v", "3", "-vendor", "apl0", "-pix_fmt", "yuv422p10le"},
      {"-f", "mov"}},
+    {"prores4444",
+     ".mov",
+     {"-c:v", "prores_ks", "-profile:v", "4", "-vendor", "apl0", "-pix_fmt", "yuva444p10le"},
+     {"-f", "mov"},
+     true},
 };
 
 const Codec& find_codec(const std::string& name) {
@@ -75,6 +65,29 @@ const Codec& find_codec(const std::string& name) {
     names += (names.empty() ? "" : ", ") + std::string(codec.name);
   }
   throw Error(ExitStatus::wrong_input, "unknown video codec '" + name + "'; known are " + names);
+}
+
+std::string filters(const VideoJob& job) {
+  std::string text;
+  if (job.under && !find_codec(job.codec).alpha) {
+    const std::array<std::uint8_t, 3>& c = *job.under;
+    text = fmt::format(
+        "color=c=0x{:02x}{:02x}{:02x}:s={}x{}:r={:.17g},format=rgb24[under];[under][in]overlay=shortest=1:"
+        "format=rgb,",
+        c[0], c[1], c[2], job.width, job.height, job.fps);
+  }
+  const int right = job.width % 2, bottom = job.height % 2;
+  if (right + bottom > 0) {
+    text += fmt::format("pad={}:{},fillborders=right={}:bottom={}:mode=smear,", job.width + right,
+                        job.height + bottom, right, bottom);
+  }
+  return text + "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+bitexact";
+}
+
+/// The last line that says something.
+std::string last_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
+  return text.substr(text.find_last_of('\n') + 1);
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,14 +19,16 @@ struct VideoJob {
   int width = 0, height = 0;  // of the pictures
   std::filesystem::path output;
   std::string codec = "h264";  // see video_codecs()
+  /// sRGB that pictures with alpha are laid over, unless the codec keeps it; none: the pictures are opaque.
+  std::optional<std::array<std::uint8_t, 3>> under = {};
 };
 
-/// h264 and h265 (.mp4, faststart), vp9 (.webm), prores (422 HQ, .mov).
+/// h264 and h265 (.mp4, faststart), vp9 (.webm), prores (422 HQ, .mov), prores4444 (.mov, with alpha).
 std::vector<std::string> video_codecs();
 /// With its dot. Throws Error(wrong_input) for a codec that is none.
 std::string video_extension(const std::string& codec);
 
-/// BT.709, yuv420p, of prores yuv422p10; an odd side gets one more line of its last pixels. The same pictures
+/// BT.709, yuv420p, of prores yuv422p10, of prores4444 yuva444p10; an odd side gets one more line of its last pixels. The same pictures
 /// give the same bytes with the same ffmpeg.
 std::vector<std::string> ffmpeg_command(const VideoJob&);
 
