@@ -8,6 +8,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "render/channels.h"
 #include "render/error.h"
 
 namespace lagomorph::render {
@@ -91,12 +92,14 @@ Color pbr_neutral(const Color& in) {
   return c * (new_peak / peak * (1.0F - white)) + new_peak * white;
 }
 
+/// `alpha`: of each pixel, that its colour is divided by; nullptr: 1.
 template <Color (*curve)(const Color&)>
-void map_pixels(const float* linear, std::size_t pixels, float scale, std::uint8_t* rgb) {
+void map_pixels(const float* linear, const float* alpha, std::size_t pixels, float scale, std::uint8_t* rgb) {
   static const SrgbTable srgb;
   constexpr float brightest = 1e8F;  // keeps infinite light finite in the curves
   for (std::size_t i = 0; i < 3 * pixels; i += 3) {
-    const Color c = scale * Color(linear[i], linear[i + 1], linear[i + 2]);
+    Color c = scale * Color(linear[i], linear[i + 1], linear[i + 2]);
+    if (alpha != nullptr && alpha[i / 3] > 0.0F) c /= alpha[i / 3];
     const bool nan = std::isnan(c.x() + c.y() + c.z()) && c.isNaN().any();
     const Color display = nan ? Color(Color::Zero()) : curve(c.max(0.0F).min(brightest));
     for (int k = 0; k < 3; ++k) rgb[i + static_cast<std::size_t>(k)] = srgb.code(display[k]);
@@ -105,7 +108,7 @@ void map_pixels(const float* linear, std::size_t pixels, float scale, std::uint8
 
 struct Row {
   const char* name;
-  void (*map)(const float* linear, std::size_t pixels, float scale, std::uint8_t* rgb);
+  void (*map)(const float* linear, const float* alpha, std::size_t pixels, float scale, std::uint8_t* rgb);
 };
 constexpr Row curves[] = {
     {"none", map_pixels<clamp_only>},
@@ -140,18 +143,27 @@ std::vector<std::string> tone_curve_names() {
   return names;
 }
 
-Picture tone_map(const Image& image, std::string_view curve, float exposure) {
+Picture tone_map(const Image& image, std::string_view curve, float exposure, bool transparent) {
   const Row& row = find_curve(curve);
   const Channel* color = image.find("color");
   if (color == nullptr || color->components != 3) {
     throw SettingsError("the image has no channel 'color' of 3 components to make a picture of");
   }
+  const Channel* alpha = transparent ? image.find(alpha_channel) : nullptr;
+  if (transparent && alpha == nullptr)
+    throw SettingsError("the image has no channel 'alpha' to make a transparent picture of");
   const float scale = std::exp2(exposure);
   Picture picture{image.width(), image.height(), std::vector<std::uint8_t>(color->values.size())};
+  if (alpha != nullptr) {
+    picture.alpha.reserve(alpha->values.size());
+    for (const float a : alpha->values)
+      picture.alpha.push_back(static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(a, 0.0F, 1.0F))));
+  }
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, color->values.size() / 3, 16384),
                     [&](const auto& range) {
-                      row.map(color->values.data() + 3 * range.begin(), range.size(), scale,
-                              picture.rgb.data() + 3 * range.begin());
+                      row.map(color->values.data() + 3 * range.begin(),
+                              alpha != nullptr ? alpha->values.data() + range.begin() : nullptr, range.size(),
+                              scale, picture.rgb.data() + 3 * range.begin());
                     });
   return picture;
 }

@@ -15,6 +15,7 @@ struct Picture {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgb;
+  std::vector<std::uint8_t> alpha = {};  // 1 a pixel, straight (rgb is not times it); none: opaque
 };
 
 /// The exact piecewise curve of IEC 61966-2-1, and its inverse. Values outside [0, 1] are clamped.
@@ -23,7 +24,9 @@ float linear_from_srgb(float srgb);
 
 std::vector<std::string> tone_curve_names();
 /// "color" of the image, times 2^exposure, through the named tone curve and sRGB, rounded to 8 bits. NaN
-/// becomes black. Throws SettingsError for an unknown curve (listing the names) or an image without colour.
-Picture tone_map(const Image&, std::string_view curve, float exposure);
+/// becomes black. Where it is `transparent` the colour is times the channel "alpha", which the picture gets,
+/// rounded to 8 bits, while its own colour is not times it. Throws SettingsError for an unknown curve
+/// (listing the names) or an image without colour.
+Picture tone_map(const Image&, std::string_view curve, float exposure, bool transparent = false);
 
 }  // namespace lagomorph::render

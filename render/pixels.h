@@ -28,7 +28,19 @@ struct Pixels {
 
 /// A picture that the program made.
 inline Pixels to_pixels(const Picture& picture) {
-  return {.width = picture.width, .height = picture.height, .samples = picture.rgb};
+  if (picture.alpha.empty())
+    return {.width = picture.width, .height = picture.height, .samples = picture.rgb};
+  std::vector<std::uint8_t> rgba;
+  rgba.reserve(4 * picture.alpha.size());
+  for (std::size_t i = 0; i < picture.alpha.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) rgba.push_back(picture.rgb[3 * i + k]);
+    rgba.push_back(picture.alpha[i]);
+  }
+  return {.width = picture.width,
+          .height = picture.height,
+          .channels = 4,
+          .alpha = true,
+          .samples = std::move(rgba)};
 }
 
 }  // namespace lagomorph::render

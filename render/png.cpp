@@ -1,5 +1,6 @@
 #include "render/png.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
@@ -39,6 +40,7 @@ unsigned char* compress_zlib(const unsigned char* data, int size, int* out_size,
 #include <stb_image_write.h>
 
 #include "render/error.h"
+#include "render/pixels.h"
 
 namespace lagomorph::render {
 namespace {
@@ -50,9 +52,10 @@ constexpr char srgb_chunk[] = "\x00\x00\x00\x01sRGB\x00\xAE\xCE\x1C\xE9";
 }  // namespace
 
 std::string encode_png(const Picture& picture, int compression) {
-  if (picture.width <= 0 || picture.height <= 0 ||
-      picture.rgb.size() !=
-          3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height)) {
+  const std::size_t pixels = static_cast<std::size_t>(std::max(picture.width, 0)) *
+                             static_cast<std::size_t>(std::max(picture.height, 0));
+  if (pixels == 0 || picture.rgb.size() != 3 * pixels ||
+      (!picture.alpha.empty() && picture.alpha.size() != pixels)) {
     throw SettingsError("a picture of " + std::to_string(picture.width) + "x" +
                         std::to_string(picture.height) + " with " + std::to_string(picture.rgb.size()) +
                         " bytes is no PNG; 3 a pixel are right");
@@ -65,8 +68,12 @@ std::string encode_png(const Picture& picture, int compression) {
   static_cast<void>(filter_is_set);
   zlib_level = compression;
   int size = 0;
+  const int samples = picture.alpha.empty() ? 3 : 4;
+  const Pixels rgba = picture.alpha.empty() ? Pixels{} : to_pixels(picture);
+  const std::uint8_t* data_in =
+      picture.alpha.empty() ? picture.rgb.data() : std::get<std::vector<std::uint8_t>>(rgba.samples).data();
   const std::unique_ptr<unsigned char, decltype(&std::free)> bytes(
-      stbi_write_png_to_mem(picture.rgb.data(), 3 * picture.width, picture.width, picture.height, 3, &size),
+      stbi_write_png_to_mem(data_in, samples * picture.width, picture.width, picture.height, samples, &size),
       std::free);
   if (!bytes) throw std::bad_alloc();
   const char* data = reinterpret_cast<const char*>(bytes.get());

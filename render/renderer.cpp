@@ -67,6 +67,8 @@ std::vector<std::string> renderer_remarks(const RenderSettings& settings, const 
     remarks.push_back("render.path.clamp = " + value +
                       ": indirect light above it is cut, so that pictures are somewhat too dark");
   }
+  if (settings.channel_format == "exr" && settings.channels.empty())
+    remarks.emplace_back("render.channel_format = exr has no effect without render.channels");
   for (std::string& remark : remarks) remark = settings.backend + ": " + remark;
   return remarks;
 }

@@ -39,7 +39,9 @@ render::Image cropped(const render::Image& image, const render::PixelRegion& reg
 
 render::Picture cropped(render::Picture picture, const render::PixelRegion& region) {
   if (is_all(region, picture.width, picture.height)) return picture;
-  return {region.width(), region.height(), part(picture.rgb, picture.width, 3, region)};
+  render::Picture kept{region.width(), region.height(), part(picture.rgb, picture.width, 3, region)};
+  if (!picture.alpha.empty()) kept.alpha = part(picture.alpha, picture.width, 1, region);
+  return kept;
 }
 
 }  // namespace lagomorph::apps

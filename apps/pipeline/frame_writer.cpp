@@ -9,17 +9,33 @@
 #include "apps/npy.h"
 #include "apps/pipeline/crop.h"
 #include "apps/pipeline/stopwatch.h"
+#include "apps/run/channel_files.h"
 #include "apps/run/state_file.h"
+#include "render/exr.h"
 #include "render/png.h"
 
 namespace lagomorph::apps {
 namespace {
 
-std::string encode_channel(const render::Channel& channel) {
+std::string encode_npy(const render::Channel& channel) {
   const std::array<std::size_t, 3> shape = {static_cast<std::size_t>(channel.height),
                                             static_cast<std::size_t>(channel.width),
                                             static_cast<std::size_t>(channel.components)};
   return npy_bytes(channel.values, std::span(shape).first(channel.components == 1 ? 2 : 3));
+}
+
+/// One of channel_files().
+std::string encode_file(const std::string& file, const render::Image& image,
+                        const render::RenderSettings& settings) {
+  if (file == multilayer_file)
+    return render::encode_multilayer_exr(image, settings.channels, settings.transparent);
+  const bool is_exr = file.ends_with(exr_extension);
+  const std::string name =
+      is_exr ? file.substr(0, file.size() - std::string_view(exr_extension).size()) : file;
+  const render::Channel* channel = image.find(name);
+  if (channel == nullptr)
+    throw Error(ExitStatus::machine, "the renderer '" + settings.backend + "' gave no channel " + name);
+  return is_exr ? render::encode_exr(*channel) : encode_npy(*channel);
 }
 
 }  // namespace
@@ -31,7 +47,7 @@ FrameWriter::FrameWriter(const RunPaths& paths, const Identity& identity, const 
   make_folder(paths.records());
   if (!draws) return;
   make_folder(paths.pictures());
-  for (const std::string& channel : scene_.render.channels) make_folder(paths.channel(channel));
+  for (const std::string& file : channel_files(scene_.render)) make_folder(paths.channel(file));
 }
 
 void FrameWriter::write(const DrawnFrame& frame) const {
@@ -70,16 +86,12 @@ PictureRecord FrameWriter::write_picture(const DrawnFrame& drawn, const StateRec
   record.made_by = identity_.picture_hash();
   if (scene_.render.backend == "path") record.clamp = static_cast<double>(scene_.render.path.clamp);
   views_.tell(record);
-  for (const std::string& name : scene_.render.channels) {
-    const render::Channel* channel = image.find(name);
-    if (channel == nullptr) {
-      throw Error(ExitStatus::machine,
-                  "the renderer '" + scene_.render.backend + "' gave no channel " + name);
-    }
-    const std::string bytes =
-        encode_channel(scene_.render.region.empty() ? *channel : cropped(*channel, scene_.render.drawn()));
-    write_file(paths_.channel(name, frame), bytes);
-    record.channels[name] = sha256(bytes);
+  const bool whole = scene_.render.region.empty();
+  const render::Image part = whole ? render::Image() : cropped(image, scene_.render.drawn());
+  for (const std::string& file : channel_files(scene_.render)) {
+    const std::string bytes = encode_file(file, whole ? image : part, scene_.render);
+    write_file(paths_.channel(file, frame), bytes);
+    record.channels[file] = sha256(bytes);
   }
   return record;
 }

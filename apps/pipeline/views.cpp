@@ -44,13 +44,20 @@ void paste(const render::Image& panel, const PanelPlace& place, render::Image& w
   }
 }
 
-void paste(const render::Picture& panel, const PanelPlace& place, render::Picture& whole) {
-  const std::ptrdiff_t row = std::ptrdiff_t{3} * panel.width;
-  for (int y = 0; y < panel.height; ++y) {
-    const auto from = panel.rgb.begin() + row * y;
+/// `components` values a pixel of a panel, to their place in a picture of that width.
+void paste(const std::vector<std::uint8_t>& panel, const PanelPlace& place, int components, int width,
+           std::vector<std::uint8_t>& whole) {
+  const std::ptrdiff_t row = std::ptrdiff_t{components} * place.width;
+  for (int y = 0; y < place.height; ++y) {
+    const auto from = panel.begin() + row * y;
     std::copy(from, from + row,
-              whole.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(place.y + y) * whole.width + place.x));
+              whole.begin() + components * (static_cast<std::ptrdiff_t>(place.y + y) * width + place.x));
   }
+}
+
+void paste(const render::Picture& panel, const PanelPlace& place, render::Picture& whole) {
+  paste(panel.rgb, place, 3, whole.width, whole.rgb);
+  if (!panel.alpha.empty()) paste(panel.alpha, place, 1, whole.width, whole.alpha);
 }
 
 render::PixelRegion region_of(const PanelPlace& p) { return {p.x, p.y, p.x + p.width, p.y + p.height}; }
@@ -173,8 +180,9 @@ render::Picture Views::finish(const render::Image& image, const sim::State& stat
   };
   if (scene_.panel.empty()) return cropped(finished(*views_.front(), image), scene_.render.drawn());
   render::Picture whole{image.width(), image.height(), {}};
-  whole.rgb.resize(std::size_t{3} * static_cast<std::size_t>(whole.width) *
-                   static_cast<std::size_t>(whole.height));
+  const std::size_t pixels = static_cast<std::size_t>(whole.width) * static_cast<std::size_t>(whole.height);
+  whole.rgb.resize(3 * pixels);
+  if (scene_.render.transparent) whole.alpha.resize(pixels);
   for (const std::unique_ptr<View>& view : views_)
     paste(finished(*view, cropped(image, region_of(view->place))), view->place, whole);
   draw_scene_caption(whole, scene_, state.frame, told);

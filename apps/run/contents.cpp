@@ -9,6 +9,7 @@
 
 #include "apps/error.h"
 #include "apps/file_io.h"
+#include "apps/run/channel_files.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -113,9 +114,11 @@ void remove_unmatched(const RunPaths& paths, const RunContents& contents) {
   remove_frames(paths.pictures(), ".png", has_picture);
   for (const fs::path& folder : channel_folders(paths)) {
     const std::string channel = folder.filename().string();
-    remove_frames(folder, ".npy", [&](int frame) {
-      return has_picture(frame) && matching.at(frame).picture->channels.contains(channel);
-    });
+    for (const std::string& file : {channel, channel + exr_extension}) {
+      remove_frames(folder, paths.channel(file, 0).extension().string(), [&](int frame) {
+        return has_picture(frame) && matching.at(frame).picture->channels.contains(file);
+      });
+    }
     remove_leftovers(folder);
   }
   for (const fs::path& folder :

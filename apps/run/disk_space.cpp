@@ -19,12 +19,15 @@ ExpectedSize expected_size(const std::vector<FrameJob>& jobs, int vertices, int 
   constexpr std::size_t record = 4096;
   const std::size_t pixels =
       static_cast<std::size_t>(render.drawn().width()) * static_cast<std::size_t>(render.drawn().height());
-  std::size_t channels = 0;
+  std::size_t channels = 0;  // of known size
+  std::size_t compressed = 0;
+  if (render.channel_format == "exr_multilayer") compressed += 4 * pixels * sizeof(float);
   for (const std::string& name : render.channels) {
     const render::ChannelKind& kind = render::channel_kind(name);
     const auto cells = [&](int side) { return static_cast<std::size_t>((side + kind.cell - 1) / kind.cell); };
-    channels += cells(render.drawn().width()) * cells(render.drawn().height()) *
-                static_cast<std::size_t>(kind.components) * sizeof(float);
+    const bool is_npy = render.channel_format == "npy" || name == render::statistics_channel;
+    (is_npy ? channels : compressed) += cells(render.drawn().width()) * cells(render.drawn().height()) *
+                                        static_cast<std::size_t>(kind.components) * sizeof(float);
   }
   const std::size_t usual_share =
       render.backend == "path" ? 2 : 3;  // of 3 bytes a pixel; noise compresses less
@@ -33,7 +36,7 @@ ExpectedSize expected_size(const std::vector<FrameJob>& jobs, int vertices, int 
     const std::size_t known =
         record + (job.simulate ? state_file_size(vertices, levels) : 0) + (job.draw ? channels : 0);
     size.least += known + (job.draw ? pixels / 20 : 0);
-    size.estimate += known + (job.draw ? 3 * pixels / usual_share : 0);
+    size.estimate += known + (job.draw ? 3 * pixels / usual_share + compressed / 2 : 0);
   }
   return size;
 }

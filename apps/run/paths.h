@@ -23,7 +23,8 @@ public:
   std::filesystem::path pictures() const { return root_ / "frames"; }
   std::filesystem::path records() const { return root_ / "records"; }
   std::filesystem::path channels() const { return root_ / "aov"; }
-  std::filesystem::path channel(std::string_view name) const { return channels() / name; }
+  /// Of "depth", or of "depth.exr": see channel_files().
+  std::filesystem::path channel(std::string_view name) const;
 
   std::filesystem::path state(int frame) const;
   std::filesystem::path picture(int frame) const;

@@ -34,7 +34,7 @@ struct PictureRecord {
   std::string sha256;
   std::string made_by;                                  // Identity::picture of the run that drew it
   std::string of_state;                                 // sha256 of the state that it shows
-  std::map<std::string, std::string> channels;          // sha256 by the channel's name
+  std::map<std::string, std::string> channels;          // sha256 by channel_files()
   std::map<std::string, std::array<double, 2>> ranges;  // of the field shown on a body, by its name
   std::optional<std::array<double, 6>> fitted_box;      // of all frames, that the camera is fitted to [m]
   double clamp = 0.0;  // render.path.clamp where it cut indirect light; 0: nothing did

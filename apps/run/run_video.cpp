@@ -9,6 +9,8 @@
 #include "apps/hash.h"
 #include "apps/video/process.h"
 #include "apps/video/video.h"
+#include "render/channels.h"
+#include "render/color.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -37,6 +39,17 @@ bool is_up_to_date(const RunPaths& paths, const VideoRecord& there, const VideoR
          sha256_file(file) == there.sha256;
 }
 
+/// The background's colour as the pictures would show it, or white.
+std::optional<std::array<std::uint8_t, 3>> under_transparent(const SceneDesc& scene) {
+  if (!scene.render.transparent) return std::nullopt;
+  if (!scene.background) return std::array<std::uint8_t, 3>{255, 255, 255};
+  render::Image pixel(1, 1);
+  const render::Color& color = *scene.background;
+  pixel.add(render::color_channel, 3) = {color.x(), color.y(), color.z()};
+  const render::Picture shown = render::tone_map(pixel, scene.render.tone_curve, scene.render.exposure);
+  return std::array<std::uint8_t, 3>{shown.rgb[0], shown.rgb[1], shown.rgb[2]};
+}
+
 }  // namespace
 
 std::optional<VideoUpdate> update_video(const RunPaths& paths, const SceneDesc& scene,
@@ -51,7 +64,8 @@ std::optional<VideoUpdate> update_video(const RunPaths& paths, const SceneDesc& 
                scene.render.drawn().height(),
                paths.video(scene.name, video_extension(codec)),
                codec,
-               frames.every};
+               frames.every,
+               under_transparent(scene)};
   for (int frame = job.first; frame <= job.last; frame += job.every) {
     if (has_picture(records, frame)) continue;
     throw Error(ExitStatus::wrong_input, "--video: " + paths.picture(frame).string() + " is not there");

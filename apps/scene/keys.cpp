@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "apps/overlay/caption.h"
+#include "apps/run/channel_files.h"
 #include "apps/scene/body_keys.h"
 #include "apps/scene/camera_keys.h"
 #include "apps/scene/overlay_keys.h"
@@ -293,6 +294,14 @@ void visit_render(render::RenderSettings& r, KeyVisitor& v) {
          .meaning = "written beside the picture, to RUN/aov/NAME/",
          .choices = render::channel_names},
         &r.channels);
+  v.key({.name = "channel_format",
+         .meaning = "of their files: NumPy arrays, OpenEXR, or one OpenEXR for the picture and all of them",
+         .choices = channel_formats},
+        &r.channel_format);
+  v.key({.name = "transparent",
+         .meaning = "nothing is seen where nothing is: pictures have an alpha channel, of which the ground's "
+                    "fading edge takes its part"},
+        &r.transparent);
   v.key(
       {.name = "region",
        .unit = "pixels",
@@ -399,7 +408,9 @@ void visit_caption(CaptionDesc& c, KeyVisitor& v) {
 void visit_background(std::optional<render::Color>& color, KeyVisitor& v) {
   v.key({.name = "color",
          .bounds = at_least(0),
-         .meaning = "linear RGB of what the camera sees where nothing is; without it the sky"},
+         .meaning =
+             "linear RGB of what the camera sees where nothing is; without it the sky. Under transparent "
+             "pictures only in their video; without it white"},
         &color);
 }
 

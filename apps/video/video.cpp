@@ -34,27 +34,12 @@ std::string picture_list(const VideoJob& job) {
   return list;
 }
 
-std::string filters(const VideoJob& job) {
-  std::string text;
-  const int right = job.width % 2, bottom = job.height % 2;
-  if (right + bottom > 0) {
-    text = fmt::format("pad={}:{},fillborders=right={}:bottom={}:mode=smear,", job.width + right,
-                       job.height + bottom, right, bottom);
-  }
-  return text + "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+bitexact";
-}
-
-/// The last line that says something.
-std::string last_line(std::string text) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
-  return text.substr(text.find_last_of('\n') + 1);
-}
-
 struct Codec {
   const char* name;
   const char* extension;
   std::vector<std::string> encoder;
   std::vector<std::string> container;
+  bool alpha = false;            // keeps that of the pictures
   const char* filter = nullptr;  // of an animated picture, in sRGB; nullptr: a video, see filters()
 };
 /// The explicit table: a new codec is one row.
@@ -81,13 +66,20 @@ const std::vector<Codec> codecs = {
      ".webp",
      {"-c:v", "libwebp_anim", "-quality", "90", "-compression_level", "4", "-pix_fmt", "yuv420p"},
      {"-loop", "0", "-f", "webp"},
+     false,
      "null"},
     // One palette of all pictures; error diffusion hides its steps.
     {"gif",
      ".gif",
      {"-c:v", "gif"},
      {"-loop", "0", "-f", "gif"},
+     false,
      "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=sierra2_4a"},
+    {"prores4444",
+     ".mov",
+     {"-c:v", "prores_ks", "-profile:v", "4", "-vendor", "apl0", "-pix_fmt", "yuva444p10le"},
+     {"-f", "mov"},
+     true},
 };
 
 const Codec& find_codec(const std::string& name) {
@@ -97,6 +89,31 @@ const Codec& find_codec(const std::string& name) {
     names += (names.empty() ? "" : ", ") + std::string(codec.name);
   }
   throw Error(ExitStatus::wrong_input, "unknown video codec '" + name + "'; known are " + names);
+}
+
+std::string filters(const VideoJob& job) {
+  std::string text;
+  const Codec& codec = find_codec(job.codec);
+  if (job.under && !codec.alpha) {
+    const std::array<std::uint8_t, 3>& c = *job.under;
+    text = fmt::format(
+        "color=c=0x{:02x}{:02x}{:02x}:s={}x{}:r={:.17g},format=rgb24[under];[under][in]overlay=shortest=1:"
+        "format=rgb,",
+        c[0], c[1], c[2], job.width, job.height, job.fps / job.every);
+  }
+  if (codec.filter != nullptr) return text + codec.filter;
+  const int right = job.width % 2, bottom = job.height % 2;
+  if (right + bottom > 0) {
+    text += fmt::format("pad={}:{},fillborders=right={}:bottom={}:mode=smear,", job.width + right,
+                        job.height + bottom, right, bottom);
+  }
+  return text + "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+bitexact";
+}
+
+/// The last line that says something.
+std::string last_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
+  return text.substr(text.find_last_of('\n') + 1);
 }
 
 }  // namespace
@@ -123,7 +140,7 @@ std::vector<std::string> ffmpeg_command(const VideoJob& job) {
   } else {
     add({"-f", "png_pipe", "-framerate", rate, "-i", picture_list(job)});
   }
-  add({"-frames:v", std::to_string(count), "-vf", codec.filter != nullptr ? codec.filter : filters(job)});
+  add({"-frames:v", std::to_string(count), "-vf", filters(job)});
   add(codec.encoder);
   // The tables of the sRGB pictures; without them players guess.
   if (codec.filter == nullptr) {

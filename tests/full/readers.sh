@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What the program writes, read by others: states by numpy, meshes by meshio and Gmsh, glTF by Assimp, pictures by pngcheck,
-# video by ffprobe; and quadratic tets that Tetgen writes, read by the program.
+# OpenEXR by OpenImageIO and exrheader, video by ffprobe; and quadratic tets that Tetgen writes, read by the program.
 # shellcheck source=tests/full/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 work=$(mktemp -d)
@@ -11,6 +11,11 @@ cd "$work"
 for extension in msh mesh vtk vtu; do
   "$program" info run/mesh.msh --mend "mesh.$extension" --quiet >/dev/null
 done
+"$program" render run --frames 2 --quiet -o comp --set render.transparent=true --set render.channel_format=exr_multilayer \
+  --set 'render.channels=["depth","normal","motion","body_id"]'
+"$program" render run --frames 2 --quiet -o arrays --set render.transparent=true \
+  --set 'render.channels=["color","alpha","depth","normal","motion","body_id"]'
+"$program" render run --frames 2 --quiet -o single --set render.channel_format=exr --set 'render.channels=["depth"]'
 "$program" export run --frames 0..2 --quiet
 "$program" export run --frames 2 --format ply --fields von_mises -o surface --quiet
 "$program" export run --frames 2 --format obj -o surface --quiet
@@ -71,6 +76,30 @@ energy = np.genfromtxt("run/energy.csv", delimiter=",", names=True)
 assert len(energy) == 3 and energy["frame"].tolist() == [0, 1, 2]
 assert np.allclose(energy["kinetic"] + energy["elastic"] + energy["gravitational"], energy["total"], rtol=1e-12, atol=1e-9)
 PY
+/usr/bin/python3 - <<'PY' || fail "OpenImageIO does not read the .exr as numpy reads the .npy"
+import numpy as np, OpenImageIO as oiio
+def read(file):
+    picture = oiio.ImageInput.open(file)
+    spec = picture.spec()
+    assert spec["compression"] == "zip" and spec.format == "float" and (spec.width, spec.height) == (160, 90), file
+    return dict(zip(spec.channelnames, np.moveaxis(picture.read_image("float"), 2, 0)))
+def array(name):
+    return np.load(f"arrays/aov/{name}/frame_0002.npy")
+layers = read("comp/aov/multilayer/frame_0002.exr")
+assert set(layers) == {"R", "G", "B", "A", "Z", "normal.X", "normal.Y", "normal.Z", "motion.X", "motion.Y", "body_id.X"}, set(layers)
+expected = {"A": array("alpha"), "Z": array("depth"), "body_id.X": array("body_id")}
+for name, letters, layer in (("color", "RGB", ""), ("normal", "XYZ", "normal."), ("motion", "XY", "motion.")):
+    expected |= {layer + letter: array(name)[..., i] for i, letter in enumerate(letters)}
+for name, values in expected.items():
+    assert np.array_equal(layers[name], values), name
+assert 0 < layers["A"].mean() < 1 and (abs(layers["motion.Y"]) > 0).any()
+single = read("single/aov/depth/frame_0002.exr")
+assert list(single) == ["Z"] and np.array_equal(single["Z"], layers["Z"]), list(single)
+png = oiio.ImageInput.open("comp/frames/frame_0002.png")
+assert png.spec().nchannels == 4, png.spec().nchannels
+PY
+exrheader comp/aov/multilayer/frame_0002.exr >exrheader.log || { cat exrheader.log; fail "exrheader"; }
+grep -q 'compression.*: zip, multi-scanline blocks' exrheader.log || { cat exrheader.log; fail "the .exr is not ZIP-compressed"; }
 gmsh -check run/mesh.msh >gmsh.log 2>&1 || { cat gmsh.log; fail "Gmsh does not read mesh.msh"; }
 assimp info run/export/*.glb >assimp.log 2>&1 || { cat assimp.log; fail "Assimp does not read the .glb"; }
 grep -Eq '^Animations: +1$' assimp.log || { cat assimp.log; fail "Assimp sees no animation in the .glb"; }

@@ -31,7 +31,7 @@ Picture grainy(int width, int height) {
   return picture;
 }
 
-std::vector<std::uint8_t> decode(const std::string& png, int width, int height) {
+std::vector<std::uint8_t> decode(const std::string& png, int width, int height, int expected = 3) {
   int w = 0;
   int h = 0;
   int components = 0;
@@ -39,8 +39,8 @@ std::vector<std::uint8_t> decode(const std::string& png, int width, int height) 
       stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(png.data()), static_cast<int>(png.size()), &w,
                             &h, &components, 0),
       stbi_image_free);
-  if (!pixels || w != width || h != height || components != 3) return {};
-  return {pixels.get(), pixels.get() + 3 * w * h};
+  if (!pixels || w != width || h != height || components != expected) return {};
+  return {pixels.get(), pixels.get() + components * w * h};
 }
 
 TEST(Png, AnotherDecoderReadsTheSamePixelsAtEveryLevel) {
@@ -51,6 +51,19 @@ TEST(Png, AnotherDecoderReadsTheSamePixelsAtEveryLevel) {
           << width << "x" << height << " level " << level;
     }
   }
+}
+
+TEST(Png, AlphaIsTheFourthSample) {
+  Picture picture = grainy(31, 17);
+  for (int i = 0; i < 31 * 17; ++i) picture.alpha.push_back(static_cast<std::uint8_t>(i));
+  const std::vector<std::uint8_t> rgba = decode(encode_png(picture, 6), 31, 17, 4);
+  ASSERT_EQ(rgba.size(), 4U * 31 * 17);
+  for (std::size_t i = 0; i < picture.alpha.size(); ++i) {
+    EXPECT_EQ(rgba[4 * i + 3], picture.alpha[i]);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(rgba[4 * i + k], picture.rgb[3 * i + k]);
+  }
+  picture.alpha.pop_back();
+  EXPECT_THROW(encode_png(picture, 6), SettingsError);
 }
 
 TEST(Png, SaysThatItsColourIsSrgbBeforeThePixels) {

@@ -25,6 +25,13 @@ TEST(DiskSpace, ExpectedSizeCountsWhatIsMade) {
   EXPECT_GE(both, state + 400000U);
   EXPECT_EQ(least({{0, true, true}, {1, true, true}}), 2 * both);
   EXPECT_GT(expected_size({{0, true, true}}, 50, 2, render).estimate, both);
+  // How well OpenEXR compresses is not known.
+  const std::size_t plain = expected_size({{0, true, true}}, 50, 2, render).estimate;
+  render.channel_format = "exr";
+  EXPECT_EQ(least({{0, true, true}}), both - 400000U);
+  EXPECT_EQ(expected_size({{0, true, true}}, 50, 2, render).estimate, plain - 200000U);
+  render.channel_format = "exr_multilayer";  // the picture too
+  EXPECT_EQ(expected_size({{0, true, true}}, 50, 2, render).estimate, plain - 200000U + 800000U);
 }
 
 TEST(DiskSpace, MoreThanThereIsIsRefused) {

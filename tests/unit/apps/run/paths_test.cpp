@@ -16,6 +16,8 @@ TEST(RunPaths, AreThoseOfTheContract) {
   EXPECT_EQ(paths.record(9999), "out/x/records/frame_9999.json");
   EXPECT_EQ(paths.picture(10000), "out/x/frames/frame_10000.png");
   EXPECT_EQ(paths.channel("depth", 3), "out/x/aov/depth/frame_0003.npy");
+  EXPECT_EQ(paths.channel("depth.exr", 3), "out/x/aov/depth/frame_0003.exr");
+  EXPECT_EQ(paths.channel("multilayer.exr"), "out/x/aov/multilayer");
   EXPECT_EQ(paths.video("bunny"), "out/x/bunny.mp4");
 }
 

@@ -113,6 +113,51 @@ TEST(Video, KeepsTheColours) {
   }
 }
 
+/// Its frame as 8-bit R, G, B, A.
+std::string pixels_of(const fs::path& video, const fs::path& folder) {
+  const fs::path raw = folder / "raw";
+  run_process({"ffmpeg", "-v", "error", "-y", "-i", video.string(), "-vf",
+               "scale=in_color_matrix=bt709:in_range=tv", "-f", "rawvideo", "-pix_fmt", "rgba", raw.string()},
+              never);
+  return tests::read_all(raw);
+}
+
+TEST(Video, LaysPicturesWithAlphaOverAColour) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not on the PATH";
+  const tests::TemporaryDirectory dir;
+  VideoJob job = job_of(dir, "frames", 3, 4, 63, 48);  // an odd side
+  for (int frame = 3; frame <= 4; ++frame) {
+    render::Picture picture{63, 48, {}, {}};
+    for (int i = 0; i < 63 * 48; ++i) {
+      for (const int value : {120, 200, 100}) picture.rgb.push_back(static_cast<std::uint8_t>(value));
+      picture.alpha.push_back(i % 63 < 21 ? 0 : i % 63 < 42 ? 128 : 255);
+    }
+    write_file(job.pictures / frame_file(frame, ".png"), render::encode_png(picture, 1));
+  }
+  job.under = {240, 40, 80};
+  ASSERT_TRUE(make_video(job, never));
+  EXPECT_NE(probe(job.output, dir.path()).find("nb_frames=2"), std::string::npos);
+  const auto at = [](const std::string& bytes, std::size_t x, std::size_t k) {
+    return static_cast<int>(static_cast<unsigned char>(bytes.at(4 * (24 * 64 + x) + k)));
+  };
+  const std::string bytes = pixels_of(job.output, dir.path());
+  const int under[] = {240, 40, 80}, own[] = {120, 200, 100};
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(at(bytes, 10, k), under[k], 4) << k;
+    EXPECT_NEAR(at(bytes, 31, k), (under[k] + own[k]) / 2, 4) << k;
+    EXPECT_NEAR(at(bytes, 55, k), own[k], 4) << k;
+  }
+  // One codec keeps it.
+  job.codec = "prores4444";
+  job.output = dir.path() / "video.mov";
+  ASSERT_TRUE(make_video(job, never));
+  const std::string kept = pixels_of(job.output, dir.path());
+  EXPECT_NEAR(at(kept, 10, 3), 0, 2);
+  EXPECT_NEAR(at(kept, 31, 3), 128, 3);
+  EXPECT_NEAR(at(kept, 55, 3), 255, 2);
+  EXPECT_NEAR(at(kept, 55, 1), 200, 4);
+}
+
 TEST(Video, OddSidesGetOneMoreLine) {
   if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not on the PATH";
   const tests::TemporaryDirectory dir;

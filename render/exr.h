@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "render/image.h"
+
+namespace lagomorph::render {
+
+/// The bytes of a scan-line OpenEXR file of 32-bit floats, ZIP-compressed, by the OpenEXR library. Channels
+/// are named by the table of channels (channels.h): R, G, B; Z; normal.X, normal.Y, normal.Z; ... Light is
+/// linear with Rec. 709 primaries. The same values give the same bytes. Safe to call from many threads.
+std::string encode_exr(const Channel&);
+
+/// All in one file: the picture as R, G, B and A, which is 1 everywhere unless the picture is `transparent`,
+/// when the colour is times it already (associated alpha); then those of `channels` that are of the picture's
+/// size. The image must have them; "color" is the picture itself.
+std::string encode_multilayer_exr(const Image&, std::span<const std::string> channels, bool transparent);
+
+}  // namespace lagomorph::render

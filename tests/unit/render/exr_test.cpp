@@ -1,0 +1,152 @@
+#include "render/exr.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <gtest/gtest.h>
+
+#include "render/channels.h"
+#include "render/error.h"
+
+namespace lagomorph::render {
+namespace exr_test {
+
+class Bytes final : public Imf::IStream {
+public:
+  explicit Bytes(const std::string& bytes) : IStream("memory"), bytes_(bytes) {}
+  bool read(char to[], int count) override {
+    const auto n = static_cast<std::size_t>(count);
+    if (at_ + n > bytes_.size()) throw std::runtime_error("ends too soon");
+    std::memcpy(to, bytes_.data() + at_, n);
+    at_ += n;
+    return at_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return at_; }
+  void seekg(std::uint64_t at) override { at_ = at; }
+
+private:
+  const std::string& bytes_;
+  std::size_t at_ = 0;
+};
+
+using Planes = std::map<std::string, std::vector<float>>;
+
+Planes read(const std::string& bytes, int width, int height) {
+  Bytes stream(bytes);
+  Imf::InputFile file(stream, 0);
+  const Imf::Header& header = file.header();
+  EXPECT_EQ(header.dataWindow().max.x, width - 1);
+  EXPECT_EQ(header.dataWindow().max.y, height - 1);
+  EXPECT_EQ(header.compression(), Imf::ZIP_COMPRESSION);
+  EXPECT_TRUE(Imf::hasChromaticities(header));
+  Planes planes;
+  Imf::FrameBuffer pixels;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
+    EXPECT_EQ(c.channel().type, Imf::FLOAT) << c.name();
+    std::vector<float>& values = planes[c.name()];
+    values.resize(static_cast<std::size_t>(width * height));
+    pixels.insert(c.name(), Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()), sizeof(float),
+                                       sizeof(float) * static_cast<std::size_t>(width)));
+  }
+  file.setFrameBuffer(pixels);
+  file.readPixels(0, height - 1);
+  return planes;
+}
+
+std::vector<std::string> names(const Planes& planes) {
+  std::vector<std::string> all;
+  for (const auto& [name, values] : planes) all.push_back(name);
+  return all;
+}
+
+constexpr int width = 21, height = 37;
+
+/// Every channel, with values that tell where they are.
+Image image_of_all() {
+  Image image(width, height);
+  float value = 0.0F;
+  for (const ChannelKind& kind : channel_kinds()) {
+    for (float& v : image.add(kind.name, kind.components, kind.cell)) v = value += 0.25F;
+  }
+  return image;
+}
+
+/// Component `k` of a channel.
+std::vector<float> component(const Image& image, const char* channel, std::size_t k) {
+  const Channel& c = *image.find(channel);
+  std::vector<float> values;
+  for (std::size_t i = k; i < c.values.size(); i += static_cast<std::size_t>(c.components))
+    values.push_back(c.values[i]);
+  return values;
+}
+
+TEST(Exr, EachChannelHasItsNamesAndValues) {
+  const Image image = image_of_all();
+  const auto of = [&](const char* channel) { return read(encode_exr(*image.find(channel)), width, height); };
+  EXPECT_EQ(names(of(color_channel)), (std::vector<std::string>{"B", "G", "R"}));
+  EXPECT_EQ(names(of(depth_channel)), std::vector<std::string>{"Z"});
+  EXPECT_EQ(names(of(motion_channel)), (std::vector<std::string>{"motion.X", "motion.Y"}));
+  EXPECT_EQ(names(of(alpha_channel)), std::vector<std::string>{"alpha.A"});
+  EXPECT_EQ(names(of(body_id_channel)), std::vector<std::string>{"body_id.X"});
+  Planes normal = of(normal_channel);
+  EXPECT_EQ(names(normal), (std::vector<std::string>{"normal.X", "normal.Y", "normal.Z"}));
+  EXPECT_EQ(normal["normal.Y"], component(image, normal_channel, 1));
+}
+
+TEST(Exr, KeepsWhatIsNoNumberAndTheSmallest) {
+  Image image(3, 1);
+  image.add(depth_channel, 1) = {std::numeric_limits<float>::infinity(), std::nanf(""),
+                                 std::numeric_limits<float>::denorm_min()};
+  const std::vector<float> z = read(encode_exr(*image.find(depth_channel)), 3, 1)["Z"];
+  EXPECT_TRUE(std::isinf(z[0]) && std::isnan(z[1]));
+  EXPECT_EQ(z[2], std::numeric_limits<float>::denorm_min());
+}
+
+TEST(Exr, OneFileHoldsThePictureAndAllChannels) {
+  const Image image = image_of_all();
+  const std::vector<std::string> all = channel_names();
+  Planes opaque = read(encode_multilayer_exr(image, all, false), width, height);
+  for (const ChannelKind& kind : channel_kinds()) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(kind.components); ++k) {
+      const std::string letter(1, kind.parts[k]);
+      const std::string name = kind.is_layer ? kind.name + ("." + letter) : letter;
+      if (kind.cell > 1) {
+        EXPECT_FALSE(opaque.contains(name));  // of another size
+      } else {
+        EXPECT_EQ(opaque[name], component(image, kind.name, k)) << name;
+      }
+    }
+  }
+  EXPECT_EQ(opaque["A"], std::vector<float>(static_cast<std::size_t>(width * height), 1.0F));
+  Planes transparent = read(encode_multilayer_exr(image, {}, true), width, height);
+  EXPECT_EQ(names(transparent), (std::vector<std::string>{"A", "B", "G", "R"}));
+  EXPECT_EQ(transparent["A"], component(image, alpha_channel, 0));
+  EXPECT_EQ(transparent["G"], component(image, color_channel, 1));
+}
+
+TEST(Exr, TheSameValuesGiveTheSameBytes) {
+  const Image image = image_of_all();
+  EXPECT_EQ(encode_multilayer_exr(image, channel_names(), true),
+            encode_multilayer_exr(image, channel_names(), true));
+}
+
+TEST(Exr, WhatTheImageHasNotIsTold) {
+  Image image(2, 2);
+  image.add(color_channel, 3);
+  EXPECT_THROW(encode_multilayer_exr(image, std::vector<std::string>{depth_channel}, false), SettingsError);
+  EXPECT_THROW(encode_multilayer_exr(image, {}, true), SettingsError);
+  EXPECT_THROW(encode_multilayer_exr(Image(2, 2), {}, false), SettingsError);
+}
+
+}  // namespace exr_test
+}  // namespace lagomorph::render
