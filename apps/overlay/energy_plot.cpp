@@ -50,6 +50,13 @@ std::array<double, 2> to_round_numbers(std::array<double, 2> range) {
 
 std::string time_text(double time) { return fmt::format("{:.4g}", time); }
 
+/// The gaps between its entries left out.
+double legend_width(double text) {
+  double width = 0.0;
+  for (const Curve& curve : curves) width += text_width(curve.name, text) + 2.2 * text;
+  return width;
+}
+
 Layout layout_of(const render::Picture& picture, const BarLabels& labels, std::string_view place,
                  double above, double beside) {
   Layout l{};
@@ -58,7 +65,9 @@ Layout layout_of(const render::Picture& picture, const BarLabels& labels, std::s
   double numbers = 0.0;
   for (const BarLabel& label : labels.ticks) numbers = std::max(numbers, text_width(label.text, l.text));
   const double pad = 1.2 * l.text;
-  const double inner_width = std::round(38.0 * l.unit), inner_height = std::round(19.0 * l.unit);
+  const double legend = legend_width(l.text) + 1.2 * l.text * (curves.size() - 1);
+  const double inner_width = std::round(std::max(38.0 * l.unit, legend - numbers - l.text)),
+               inner_height = std::round(19.0 * l.unit);
   l.width = std::round(2.0 * pad + numbers + l.text + inner_width);
   l.height = std::round(2.0 * pad + 4.4 * l.text + inner_height + 2.2 * l.text);
   const double margin = 3.0 * l.unit;
@@ -75,10 +84,8 @@ Layout layout_of(const render::Picture& picture, const BarLabels& labels, std::s
 
 void draw_legend(render::Picture& picture, const Layout& l) {
   const double pad = 1.2 * l.text, y = l.top + pad + 2.9 * l.text;
-  double widths = 0.0;
-  for (const Curve& curve : curves) widths += text_width(curve.name, l.text) + 2.2 * l.text;
   const double left = l.left + pad, right = l.left + l.width - pad;
-  const double gap = std::max(0.6 * l.text, (right - left - widths) / (curves.size() - 1));
+  const double gap = (right - left - legend_width(l.text)) / (curves.size() - 1);
   double x = left;
   for (const Curve& curve : curves) {
     const std::array<Segment, 1> sample = {{{{x, y - 0.5 * l.text}, {x + 1.5 * l.text, y - 0.5 * l.text}}}};

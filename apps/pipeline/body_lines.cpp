@@ -28,8 +28,12 @@ LineMesh boundary_lines(const sim::TetMesh& mesh, sim::Range tets) {
 
 }  // namespace
 
+BodyLines lines_of_all_tets(const sim::Model& model, std::size_t body) {
+  return {boundary_lines(model.mesh(), model.mesh().bodies[body].tets), nullptr};
+}
+
 BodyLines lines_of_tets(const SceneDesc& scene, const sim::Model& model, std::size_t body) {
-  if (!scene.clip) return {boundary_lines(model.mesh(), model.mesh().bodies[body].tets), nullptr};
+  if (!scene.clip) return lines_of_all_tets(model, body);
   const sim::TetMesh kept =
       sim::kept_part(model.mesh(), static_cast<int>(body), scene.clip->point, scene.clip->normal);
   return {boundary_lines(kept, {0, kept.tet_count()}), nullptr};

@@ -17,7 +17,9 @@ struct BodyLines {
   const sim::Surface* surface = nullptr;  // none: vertices are the nodes of all tets
 };
 
-/// The boundary of a body's tets, of those that a clip leaves. Of quadratic tets only the tets' own edges,
+/// The boundary of all tets of a body.
+BodyLines lines_of_all_tets(const sim::Model&, std::size_t body);
+/// The same of those that a clip leaves. Of quadratic tets only the tets' own edges,
 /// not those between the four triangles of a face.
 BodyLines lines_of_tets(const SceneDesc&, const sim::Model&, std::size_t body);
 /// Of "surface" what is drawn of the body, the boundary of its tets unless it is a fine mesh; of "tets" that

@@ -40,7 +40,8 @@ Overlays::Overlays(const SceneDesc& scene, const sim::Model& model, const std::v
   for (std::size_t i = 0; i < scene.body.size(); ++i) {
     const BodyDesc& body = scene.body[i];
     if (body.wireframe.show) wireframes_[i] = lines_of(scene, model, surfaces, i, body.wireframe.of);
-    if (body.ghost.show != "none") ghosts_[i] = lines_of_surface(surfaces[i]);
+    if (body.ghost.show != "none")  // whole, where the body is cut
+      ghosts_[i] = scene.clip ? lines_of_all_tets(model, i) : lines_of_surface(surfaces[i]);
     labels_.emplace_back(scene, model, surfaces, i);
   }
   if (!has_any_in_world()) return;
@@ -156,6 +157,10 @@ std::vector<std::string> Overlays::remarks() const {
       remarks.push_back(fmt::format(
           "body.{}.surface.fill = false without body.{}.wireframe.show: the surface of '{}' is not drawn", i,
           i, body.physics.name));
+    }
+    if (!body.surface.fill && shows_field(body)) {
+      remarks.push_back(fmt::format("body.{}.look.field has no effect: the surface of '{}' is not drawn", i,
+                                    body.physics.name));
     }
     if (const std::optional<std::string> remark = labels_[i].remark(body.physics.name))
       remarks.push_back(*remark);

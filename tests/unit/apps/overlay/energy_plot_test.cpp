@@ -68,6 +68,21 @@ TEST(EnergyPlot, GrowsAndKeepsItsAxes) {
   EXPECT_NEAR((all.right - all.left) / full, 0.7, 0.05);
 }
 
+/// Its letters have a least size, so that small pictures' plates are wider.
+TEST(EnergyPlot, TheLegendHasRoomInSmallPictures) {
+  render::Picture small{480, 270, std::vector<std::uint8_t>(std::size_t{3} * 480 * 270, 128)};
+  const render::Picture before = small;
+  draw_energy_plot(small, samples(5), axes, "top_right");
+  ASSERT_NE(small.rgb, before.rgb);
+  const int border = 480 - static_cast<int>(3.0 * 2.7);
+  for (int y = 0; y < 270; ++y) {
+    for (int x = border + 1; x < 480; ++x) {
+      const auto at = static_cast<std::size_t>(3 * (y * 480 + x));
+      ASSERT_EQ(small.rgb[at], before.rgb[at]) << x << " " << y;
+    }
+  }
+}
+
 TEST(EnergyPlot, IsNotDrawnWhereThereIsNoRoom) {
   render::Picture small{60, 40, std::vector<std::uint8_t>(std::size_t{3} * 60 * 40, 128)};
   const render::Picture before = small;

@@ -80,6 +80,26 @@ TEST(Overlays, ABodyWithoutFillIsNotDrawn) {
   EXPECT_NE(bar.overlays.remarks()[0].find("the surface of 'bar' is not drawn"), std::string::npos);
 }
 
+/// Of a body that is opened, too.
+TEST(Overlays, TheGhostIsWholeAtRest) {
+  const std::vector<std::string> ghost = {"body.0.ghost={ show = 'outline', over = true }",
+                                          "body.0.surface.mesh=''"};
+  const Bar whole(ghost), cut({ghost[0], ghost[1], "clip={ point = [0, 0.3, 0], normal = [0, 1, 0] }"});
+  EXPECT_GT(whole.pixels(), 100);
+  EXPECT_EQ(whole.picture().rgb, cut.picture().rgb);
+}
+
+TEST(Overlays, WhatHasNoEffectIsTold) {
+  const Bar unseen({"body.0.surface.fill=false", "body.0.wireframe.show=true", "body.0.look.field=J"});
+  ASSERT_EQ(unseen.overlays.remarks().size(), 1U);
+  EXPECT_EQ(unseen.overlays.remarks()[0],
+            "body.0.look.field has no effect: the surface of 'bar' is not drawn");
+  const Bar cut(
+      {"clip={ point = [0, 0.3, 0], normal = [0, 1, 0], color = [1, 0, 0] }", "body.0.look.field=J"});
+  ASSERT_EQ(cut.overlays.remarks().size(), 1U);
+  EXPECT_EQ(cut.overlays.remarks()[0], "clip.color has no effect: the bodies' fields colour the cut");
+}
+
 TEST(Overlays, AFlippedSurfaceIsInsideOut) {
   const Bar bar({}), flipped({"body.0.surface.flip=true"});
   const auto a = build_render_scene(bar.scene, bar.model, bar.surfaces).meshes.at(0).triangles.at(3);
