@@ -22,4 +22,7 @@ focus 14 path 256
 motion_blur 5 path 256
 stress 66 raster 1
 two_materials 30 raster 1
+turntable 100 raster 1
+side_by_side 16 raster 1
+ears 36 path 256
 SCENES
