@@ -39,6 +39,16 @@ TEST_F(Drafts, EveryOtherPicture) {
   expect_same_run(at("whole"), at("r"));
 }
 
+TEST_F(Drafts, AVideoOfEveryOtherPicture) {
+  if (run_program({"run", data_file("run/bar.toml").string(), "--frames", "0", "--video", "--backend", "null",
+                   "-o", at("try").string(), "--quiet"})
+          .status == 4)
+    GTEST_SKIP() << "ffmpeg is not on the PATH";
+  expect(0, run("r", {"--every", "2", "--codec", "gif"}));
+  EXPECT_TRUE(fs::exists(at("r") / "bar.gif"));
+  EXPECT_EQ(run_json("r").at("video").at("file"), "bar.gif");
+}
+
 /// The pixels of a region are those of the whole picture, and so are its channels and what is written over
 /// it.
 TEST_F(Drafts, ARegionIsAPartOfThePicture) {

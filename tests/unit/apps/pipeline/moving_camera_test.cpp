@@ -36,6 +36,18 @@ TEST_F(MovingCamera, IsTheSameInARunInPartsAndLater) {
   }
 }
 
+/// RUN/scene.toml says all of the camera.
+TEST_F(MovingCamera, IsWhatTheRunSaysOfIt) {
+  backend_ = "null";
+  const Arguments more = {"--set", "camera.key.0.frame=1",  "--set", "camera.key.0.fov=21.3",
+                          "--set", "camera.view=isometric", "--set", "panel.0.zoom=1.7",
+                          "--set", "panel.1.view=top",      "--set", "camera.margin=0.123"};
+  expect(0, run("r", moves + more));
+  const auto before = tree(at("r"));
+  expect(0, {"run", (at("r") / "scene.toml").string(), "-o", at("r").string(), "--quiet"});
+  EXPECT_EQ(tree(at("r")), before);
+}
+
 TEST_F(MovingCamera, EndsWhereItsTurnsAreSpread) {
   expect(0, run("r", moves));
   const std::string said = expect(2, run("r", moves + Arguments{"--set", "time.frames=5"}));

@@ -95,6 +95,54 @@ TEST(Video, HasOtherCodecs) {
   EXPECT_THROW(video_extension("divx"), Error);
 }
 
+/// Animated pictures that repeat for ever; of the GIF the palette is the pictures' own.
+TEST(Video, CanBeAnAnimatedPicture) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not on the PATH";
+  const tests::TemporaryDirectory dir;
+  VideoJob job = job_of(dir, "frames", 2, 5, 33, 25);
+  for (const char* const codec : {"webp", "gif"}) {
+    job.codec = codec;
+    job.output = dir.path() / ("video" + video_extension(codec));
+    ASSERT_TRUE(make_video(job, never));
+    const std::string bytes = tests::read_all(job.output);
+    ASSERT_TRUE(make_video(job, never));
+    EXPECT_TRUE(tests::read_all(job.output) == bytes) << codec << ": the same pictures give the same bytes";
+  }
+  const std::string webp = tests::read_all(dir.path() / "video.webp"),
+                    gif = tests::read_all(dir.path() / "video.gif");
+  const auto count = [](const std::string& text, const std::string& word) {
+    int n = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count(webp, "ANMF"), 4);
+  EXPECT_NE(gif.find("NETSCAPE2.0"), std::string::npos) << "repeats";
+  const std::string text = probe(dir.path() / "video.gif", dir.path());
+  for (const char* fact : {"codec_name=gif", "width=33", "height=25"})
+    EXPECT_NE(text.find(fact), std::string::npos) << text;
+  const fs::path raw = dir.path() / "raw";
+  run_process({"ffmpeg", "-v", "error", "-i", (dir.path() / "video.gif").string(), "-f", "rawvideo",
+               "-pix_fmt", "rgb24", raw.string()},
+              never);
+  const std::string pixels = tests::read_all(raw);
+  ASSERT_EQ(pixels.size(), std::size_t{4 * 33 * 25 * 3});
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(static_cast<unsigned char>(pixels[i * 33 * 25 * 3]), 40 * (2 + i)) << "exactly its colour";
+}
+
+/// Pictures between which others are left out, at the pace of the motion.
+TEST(Video, OfEveryOtherPicture) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not on the PATH";
+  const tests::TemporaryDirectory dir;
+  VideoJob job = job_of(dir, "a folder", 1, 7, 64, 48);
+  job.every = 3;
+  for (const int frame : {2, 3, 5, 6}) fs::remove(dir.path() / "a folder" / frame_file(frame, ".png"));
+  ASSERT_TRUE(make_video(job, never));
+  const std::string text = probe(job.output, dir.path());
+  for (const char* fact : {"nb_frames=3", "r_frame_rate=25/6"})
+    EXPECT_NE(text.find(fact), std::string::npos) << fact << " is not in " << text;
+}
+
 TEST(Video, KeepsTheColours) {
   if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not on the PATH";
   const tests::TemporaryDirectory dir;
