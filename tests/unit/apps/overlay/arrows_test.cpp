@@ -8,7 +8,7 @@
 #include "apps/overlay/shapes.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace arrows_test {
 
 using render::Vec3;
 
@@ -119,5 +119,5 @@ TEST(Dots, ScaleWithThePictureAndAreNeverTiny) {
   EXPECT_GT(drawn(picture, red).exact, 8);
 }
 
-}  // namespace
+}  // namespace arrows_test
 }  // namespace lagomorph::apps

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace energy_plot_test {
 
 constexpr int width = 640, height = 360;
 
@@ -98,5 +98,5 @@ TEST(EnergyPlot, OneEnergyForAllTimeIsDrawn) {
   EXPECT_NE(picture.rgb, before.rgb);
 }
 
-}  // namespace
+}  // namespace energy_plot_test
 }  // namespace lagomorph::apps

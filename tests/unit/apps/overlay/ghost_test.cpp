@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace ghost_test {
 
 using render::Triangle;
 using render::Vec3;
@@ -81,5 +81,5 @@ TEST(Ghost, OutlineOrFill) {
   EXPECT_GT(fill, 2 * outline);
 }
 
-}  // namespace
+}  // namespace ghost_test
 }  // namespace lagomorph::apps

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace item_buffer_test {
 
 using render::Triangle;
 using render::Vec3;
@@ -81,5 +81,5 @@ TEST(ItemBuffer, ATriangleOnItsEdgeOrOutsideDrawsNothing) {
   EXPECT_FALSE(buffer.holds(-1, 0));
 }
 
-}  // namespace
+}  // namespace item_buffer_test
 }  // namespace lagomorph::apps

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace wireframe_test {
 
 using render::Triangle;
 using render::Vec3;
@@ -146,5 +146,5 @@ TEST(Wireframe, StylesOfHiddenLines) {
   EXPECT_EQ(drawn_pixels({.opacity = 0.0}), 0);
 }
 
-}  // namespace
+}  // namespace wireframe_test
 }  // namespace lagomorph::apps

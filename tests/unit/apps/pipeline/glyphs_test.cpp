@@ -12,7 +12,7 @@
 
 /// Signs and numbers on the small bar, which is 0.6 m high and held by its top.
 namespace lagomorph::apps {
-namespace {
+namespace glyphs_test {
 
 struct Bar {
   explicit Bar(const std::vector<std::string>& overrides)
@@ -167,5 +167,5 @@ TEST_F(SequenceOverlays, AreTheSameWholeResumedOrInShards) {
   EXPECT_EQ(tests::tree(at("apart")), before);
 }
 
-}  // namespace
+}  // namespace glyphs_test
 }  // namespace lagomorph::apps

@@ -14,7 +14,7 @@
 
 /// Overlays of the small bar.
 namespace lagomorph::apps {
-namespace {
+namespace overlays_test {
 
 using tests::Arguments;
 using tests::operator+;
@@ -182,5 +182,5 @@ TEST_F(OverlayRuns, ABodyOfLinesAloneAndACutOneAreDrawnByBoth) {
             tests::read_all(at("plain") / "states/frame_0001.npy"));
 }
 
-}  // namespace
+}  // namespace overlays_test
 }  // namespace lagomorph::apps
