@@ -15,8 +15,9 @@ std::vector<Segment> with_gaps(const std::vector<Segment>& lines, double on, dou
   std::vector<Segment> dashes;
   for (const Segment& s : lines) {
     const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y, length = std::hypot(dx, dy);
-    for (double at = 0.0; at < length; at += on + off) {
-      const double from = at / length, to = std::min(at + on, length) / length;
+    const int count = static_cast<int>(std::ceil(length / (on + off)));
+    for (int i = 0; i < count; ++i) {
+      const double at = i * (on + off), from = at / length, to = std::min(at + on, length) / length;
       dashes.push_back({{s.a.x + from * dx, s.a.y + from * dy}, {s.a.x + to * dx, s.a.y + to * dy}});
     }
   }
