@@ -28,8 +28,8 @@ std::vector<std::string> video_codecs();
 /// With its dot. Throws Error(wrong_input) for a codec that is none.
 std::string video_extension(const std::string& codec);
 
-/// BT.709, yuv420p, of prores yuv422p10, of prores4444 yuva444p10; an odd side gets one more line of its last pixels. The same pictures
-/// give the same bytes with the same ffmpeg.
+/// BT.709, yuv420p, of prores yuv422p10, of prores4444 yuva444p10; an odd side gets one more line of its last
+/// pixels. The same pictures give the same bytes with the same ffmpeg.
 std::vector<std::string> ffmpeg_command(const VideoJob&);
 
 /// Makes the video through ffmpeg and renames it into its place. Returns false when `stop` ended it. Throws
