@@ -14,7 +14,7 @@
 /// Both back ends draw one scene: the same surfaces in the same pixels, with the same data, in the same
 /// light.
 namespace lagomorph::render {
-namespace {
+namespace agreement_test {
 
 constexpr int width = 160, height = 120;
 
@@ -285,5 +285,5 @@ TEST(BackEndsAgree, OnDirectLightOfASun) {
   EXPECT_LT(std::abs(bias), 0.001);
 }
 
-}  // namespace
+}  // namespace agreement_test
 }  // namespace lagomorph::render

@@ -19,7 +19,7 @@
 #include "render/error.h"
 
 namespace lagomorph::render {
-namespace {
+namespace exr_test {
 
 class Bytes final : public Imf::IStream {
 public:
@@ -148,5 +148,5 @@ TEST(Exr, WhatTheImageHasNotIsTold) {
   EXPECT_THROW(encode_multilayer_exr(Image(2, 2), {}, false), SettingsError);
 }
 
-}  // namespace
+}  // namespace exr_test
 }  // namespace lagomorph::render

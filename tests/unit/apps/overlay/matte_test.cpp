@@ -7,7 +7,7 @@
 #include "apps/overlay/overlay.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace matte_test {
 
 using render::Picture;
 
@@ -46,5 +46,5 @@ TEST(Overlay, IsOverWhatIsThere) {
   }
 }
 
-}  // namespace
+}  // namespace matte_test
 }  // namespace lagomorph::apps

@@ -12,7 +12,7 @@
 
 /// Runs that leave channels, and pictures with alpha.
 namespace lagomorph::tests {
-namespace {
+namespace channels_run_test {
 
 namespace fs = std::filesystem;
 
@@ -151,5 +151,5 @@ TEST_F(ChannelsRun, TransparentPicturesAreCheckedPreviewedAndApproved) {
   EXPECT_EQ(run_program({"check", at("r").string(), at("golden").string(), "--quiet"}).status, 1);
 }
 
-}  // namespace
+}  // namespace channels_run_test
 }  // namespace lagomorph::tests

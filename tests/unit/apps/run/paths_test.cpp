@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace paths_test {
 
 TEST(RunPaths, AreThoseOfTheContract) {
   const RunPaths paths("out/x");
@@ -31,5 +31,5 @@ TEST(RunPaths, FramesOfNames) {
   }
 }
 
-}  // namespace
+}  // namespace paths_test
 }  // namespace lagomorph::apps

@@ -12,7 +12,7 @@
 
 /// The channels that denoisers need.
 namespace lagomorph::render {
-namespace {
+namespace tile_means_test {
 
 using path::BatchedMean;
 
@@ -202,5 +202,5 @@ TEST(DenoisingChannels, AreThePathTracersOnly) {
   }
 }
 
-}  // namespace
+}  // namespace tile_means_test
 }  // namespace lagomorph::render
