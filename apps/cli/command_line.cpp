@@ -268,7 +268,7 @@ constexpr OptionRow option_rows[] = {
     {"--video", nullptr, " run render ", "also make RUN/<name>.mp4 of the pictures",
      [](Options& o, const std::string&) { o.video = true; }},
     {"--codec", "NAME", " run render ",
-     "h264 or h265 (.mp4), vp9 (.webm), prores or prores4444 (.mov), webp, gif; implies --video",
+     "h264, h265, vp9, prores, prores4444 (with alpha), webp, gif; implies --video",
      [](Options& o, const std::string& v) {
        o.codec = one_of(v, "--codec", video_codecs());
        o.video = true;

@@ -22,20 +22,21 @@ struct VideoJob {
   int every = 1;               // only every Nth of the pictures
   /// sRGB that pictures with alpha are laid over, unless the codec keeps it; none: the pictures are opaque.
   std::optional<std::array<std::uint8_t, 3>> under = {};
+};
 
-  /// h264 and h265 (.mp4, faststart), vp9 (.webm), prores (422 HQ, .mov), prores4444 (.mov, with alpha), and
-  /// animated pictures: webp, gif.
-  std::vector<std::string> video_codecs();
-  /// With its dot. Throws Error(wrong_input) for a codec that is none.
-  std::string video_extension(const std::string& codec);
+/// h264 and h265 (.mp4, faststart), vp9 (.webm), prores (422 HQ, .mov), prores4444 (.mov, with alpha), and
+/// animated pictures: webp, gif.
+std::vector<std::string> video_codecs();
+/// With its dot. Throws Error(wrong_input) for a codec that is none.
+std::string video_extension(const std::string& codec);
 
-  /// Of the pictures first, first + every, ..., that many frames of the sequence apart in time. Videos are
-  /// BT.709, yuv420p, of prores yuv422p10, of prores4444 yuva444p10; an odd side gets one more line of its
-  /// last pixels. The same pictures give the same bytes with the same ffmpeg.
-  std::vector<std::string> ffmpeg_command(const VideoJob&);
+/// Of the pictures first, first + every, ..., that many frames of the sequence apart in time. Videos are
+/// BT.709, yuv420p, of prores yuv422p10, of prores4444 yuva444p10; an odd side gets one more line of its last
+/// pixels. The same pictures give the same bytes with the same ffmpeg.
+std::vector<std::string> ffmpeg_command(const VideoJob&);
 
-  /// Makes the video through ffmpeg and renames it into its place. Returns false when `stop` ended it. Throws
-  /// Error(machine) with the command to run later when ffmpeg is not there or fails.
-  bool make_video(const VideoJob&, const std::function<bool()>& stop);
+/// Makes the video through ffmpeg and renames it into its place. Returns false when `stop` ended it. Throws
+/// Error(machine) with the command to run later when ffmpeg is not there or fails.
+bool make_video(const VideoJob&, const std::function<bool()>& stop);
 
 }  // namespace lagomorph::apps

@@ -165,6 +165,24 @@ TEST(Color, AnyNumberOfThreadsGivesTheSameBytes) {
   EXPECT_EQ(tone_map(image, "aces", 0.0F).rgb, one);
 }
 
+TEST(Color, TransparentPicturesHaveTheColourOfWhatIsThere) {
+  const Color seen(0.2F, 0.4F, 0.1F);
+  Image image = image_of({seen, 0.25F * seen, 0.0F * seen, 1e-6F * seen});
+  image.add("alpha", 1) = {1.0F, 0.25F, 0.0F, 1e-6F};
+  for (const char* curve : {"none", "aces"}) {
+    const Picture opaque = tone_map(image, curve, 0.5F);
+    EXPECT_TRUE(opaque.alpha.empty());
+    const Picture picture = tone_map(image, curve, 0.5F, true);
+    EXPECT_EQ(picture.alpha, (std::vector<std::uint8_t>{255, 64, 0, 0}));
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(picture.rgb[k], opaque.rgb[k]);
+      EXPECT_EQ(picture.rgb[3 + k], opaque.rgb[k]);  // the curve sees the colour, not its part of the pixel
+      EXPECT_EQ(picture.rgb[6 + k], opaque.rgb[6 + k]);
+    }
+  }
+  EXPECT_THROW(tone_map(image_of({seen}), "none", 0.0F, true), SettingsError);
+}
+
 TEST(Color, ErrorsNameWhatIsKnown) {
   try {
     tone_map(image_of({Color(1.0F, 1.0F, 1.0F)}), "filmic", 0.0F);
