@@ -41,7 +41,7 @@ struct RenderSettings {
   float exposure = 0.0F;                   // stops: linear light times 2^exposure before the curve
   int png_compression = 1;                 // zlib level, 0 .. 12 (libdeflate's)
   std::vector<std::string> channels;       // written beside the picture: see channel_kinds()
-  std::vector<int> region;  // x0, y0, x1, y1: the others may be anything [pixels]; empty: all
+  std::vector<int> region;                 // x0, y0, x1, y1: the others may be anything [pixels]; empty: all
   RasterSettings raster;
   PathSettings path;
 
