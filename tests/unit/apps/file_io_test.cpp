@@ -14,7 +14,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace file_io_test {
 
 namespace fs = std::filesystem;
 using tests::read_all;
@@ -203,5 +203,5 @@ TEST(FileIo, RemovingWhatIsNotThereIsNoError) {
   EXPECT_EQ(error_of([&] { remove_file(dir.path()); }).first, ExitStatus::machine);
 }
 
-}  // namespace
+}  // namespace file_io_test
 }  // namespace lagomorph::apps

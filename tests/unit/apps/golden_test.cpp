@@ -10,7 +10,7 @@
 /// `lagomorph check` of the project's own goldens: pictures of committed states (tests/golden/states) against
 /// committed pictures (tests/golden/<case>), so that physics cannot move them.
 namespace lagomorph::tests {
-namespace {
+namespace golden_test {
 
 namespace fs = std::filesystem;
 
@@ -78,5 +78,5 @@ TEST_P(Golden, DefaultsSortOtherLooks) {
 INSTANTIATE_TEST_SUITE_P(Cases, Golden, testing::Values("raster", "path"),
                          [](const auto& info) { return info.param; });
 
-}  // namespace
+}  // namespace golden_test
 }  // namespace lagomorph::tests

@@ -9,7 +9,7 @@
 #include "apps/error.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace hash_test {
 
 // FIPS 180-2, appendix B.
 constexpr char empty[] = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
@@ -50,5 +50,5 @@ TEST(Sha256, AFileThatCannotBeReadIsWrongInput) {
   }
 }
 
-}  // namespace
+}  // namespace hash_test
 }  // namespace lagomorph::apps

@@ -12,7 +12,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace lagomorph {
-namespace {
+namespace main_test {
 
 using tests::Ended;
 using tests::run_program;
@@ -103,5 +103,5 @@ TEST(Program, AReaderThatLeavesIsNoError) {
   EXPECT_EQ(ended.err, "");
 }
 
-}  // namespace
+}  // namespace main_test
 }  // namespace lagomorph

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace nearest_test {
 
 TEST(EditDistance, CountsEditsAndSwaps) {
   EXPECT_EQ(edit_distance("", ""), 0);
@@ -42,5 +42,5 @@ TEST(Joined, PutsCommas) {
   EXPECT_EQ(joined(std::vector<std::string>{"a", "b"}), "a, b");
 }
 
-}  // namespace
+}  // namespace nearest_test
 }  // namespace lagomorph::apps

@@ -11,7 +11,7 @@
 #include "tests/support/run_tree.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace npy_test {
 
 using Shape = std::vector<std::size_t>;
 
@@ -124,5 +124,5 @@ TEST(Npy, ShapesAreTuples) {
   EXPECT_EQ(shape_text(Shape{1, 2, 27, 3}), "(1, 2, 27, 3)");
 }
 
-}  // namespace
+}  // namespace npy_test
 }  // namespace lagomorph::apps

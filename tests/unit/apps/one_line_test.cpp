@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace one_line_test {
 
 TEST(OneLine, EscapesControlCharacters) {
   EXPECT_EQ(one_line("a\nb\tc\rd"), "a\\nb\\tc\\rd");
@@ -21,5 +21,5 @@ TEST(OneLine, KeepsText) {
   EXPECT_EQ(one_line(text), text);
 }
 
-}  // namespace
+}  // namespace one_line_test
 }  // namespace lagomorph::apps

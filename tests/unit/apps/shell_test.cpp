@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace shell_test {
 
 TEST(ShellWord, LeavesWhatIsPlain) { EXPECT_EQ(shell_word("out/bunny-2_a.png"), "out/bunny-2_a.png"); }
 
@@ -15,5 +15,5 @@ TEST(ShellWord, QuotesTheRest) {
   EXPECT_EQ(shell_word("$HOME"), "'$HOME'");
 }
 
-}  // namespace
+}  // namespace shell_test
 }  // namespace lagomorph::apps

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace utf8_test {
 
 TEST(Utf8, TakesTextOfEveryLength) {
   EXPECT_TRUE(is_utf8(""));
@@ -27,5 +27,5 @@ TEST(Utf8, InvalidBytesAreReplaced) {
   EXPECT_EQ(valid_utf8(""), "");
 }
 
-}  // namespace
+}  // namespace utf8_test
 }  // namespace lagomorph::apps

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::render {
-namespace {
+namespace atmosphere_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -69,5 +69,5 @@ TEST(Atmosphere, TheSkyIsBlueAndAroundALowSunRed) {
   EXPECT_LT(atmosphere_map(night).radiance(Vec3(0, 1, 0)).z(), 0.05F * up.z());
 }
 
-}  // namespace
+}  // namespace atmosphere_test
 }  // namespace lagomorph::render

@@ -11,7 +11,7 @@
 #include "render/error.h"
 
 namespace lagomorph::render {
-namespace {
+namespace color_test {
 
 Image image_of(const std::vector<Color>& pixels) {
   Image image(static_cast<int>(pixels.size()), 1);
@@ -176,5 +176,5 @@ TEST(Color, ErrorsNameWhatIsKnown) {
   EXPECT_THROW(tone_map(Image(2, 2), "none", 0.0F), SettingsError);
 }
 
-}  // namespace
+}  // namespace color_test
 }  // namespace lagomorph::render

@@ -9,7 +9,7 @@
 #include "render/error.h"
 
 namespace lagomorph::render {
-namespace {
+namespace colormap_test {
 
 using Rgb = std::array<float, 3>;
 
@@ -110,5 +110,5 @@ TEST(Colormap, ClampsAndTellsUnknownNames) {
   }
 }
 
-}  // namespace
+}  // namespace colormap_test
 }  // namespace lagomorph::render

@@ -8,7 +8,7 @@
 #include "render/error.h"
 
 namespace lagomorph::render {
-namespace {
+namespace hdr_test {
 
 HdrPicture read(const std::string& bytes) {
   return read_hdr({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
@@ -88,5 +88,5 @@ TEST(Hdr, DamageIsTold) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace hdr_test
 }  // namespace lagomorph::render

@@ -11,7 +11,7 @@
 #include "tests/support/png_maker.h"
 
 namespace lagomorph::render {
-namespace {
+namespace png_read_test {
 
 using tests::make_png;
 using tests::noise_samples;
@@ -224,5 +224,5 @@ TEST(PngRead, HeaderAloneTellsTheKind) {
   EXPECT_TRUE(header.interlaced);
 }
 
-}  // namespace
+}  // namespace png_read_test
 }  // namespace lagomorph::render

@@ -13,7 +13,7 @@
 #include "render/error.h"
 
 namespace lagomorph::render {
-namespace {
+namespace png_test {
 
 /// Gradients with a deterministic grain, so that no filter predicts it all.
 Picture grainy(int width, int height) {
@@ -100,5 +100,5 @@ TEST(Png, RefusesWhatIsNoPicture) {
   EXPECT_THROW(encode_png({}, 1), SettingsError);
 }
 
-}  // namespace
+}  // namespace png_test
 }  // namespace lagomorph::render

@@ -10,7 +10,7 @@
 #include "render/error.h"
 
 namespace lagomorph::render {
-namespace {
+namespace render_scene_test {
 
 RenderScene small_scene() {
   RenderScene scene;
@@ -94,5 +94,5 @@ TEST(RenderScene, GroundFadesSmoothlyFromItsStartToItsRadius) {
   EXPECT_EQ(at(60.0F), 1.0F);
 }
 
-}  // namespace
+}  // namespace render_scene_test
 }  // namespace lagomorph::render

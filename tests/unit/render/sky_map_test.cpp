@@ -9,7 +9,7 @@
 #include "render/error.h"
 
 namespace lagomorph::render {
-namespace {
+namespace sky_map_test {
 
 /// Texel (x, y) has the value x + 100 y in red.
 SkyMap numbered(int width, int height, float rotation = 0.0F) {
@@ -71,5 +71,5 @@ TEST(SkyMap, ErrorsNameTheTexel) {
   EXPECT_THROW(SkyMap(2, 2, texels), SettingsError);
 }
 
-}  // namespace
+}  // namespace sky_map_test
 }  // namespace lagomorph::render

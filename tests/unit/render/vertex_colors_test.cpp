@@ -11,7 +11,7 @@
 
 /// Colours of vertices in place of the material's, the same in both back ends.
 namespace lagomorph::render {
-namespace {
+namespace vertex_colors_test {
 
 constexpr int width = 40;
 constexpr int height = 20;
@@ -165,5 +165,5 @@ INSTANTIATE_TEST_SUITE_P(BackEnds, VertexColors,
                            return std::get<0>(info.param) + std::to_string(std::get<1>(info.param));
                          });
 
-}  // namespace
+}  // namespace vertex_colors_test
 }  // namespace lagomorph::render

@@ -7,7 +7,7 @@
 #include "tests/unit/sim/motion.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace adaptive_test {
 
 class EachAdaptive : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Integrators, EachAdaptive, testing::ValuesIn(dynamic_integrators()),
@@ -129,5 +129,5 @@ TEST(MakeIntegrator, TellsAWrongErrorTolerance) {
   EXPECT_EQ(error_of([&] { make_integrator(time, {}, model); }), "time.error_tolerance = -1 must be > 0 m");
 }
 
-}  // namespace
+}  // namespace adaptive_test
 }  // namespace lagomorph::sim

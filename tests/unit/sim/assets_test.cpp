@@ -13,7 +13,7 @@
 #include "tests/support/paths.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace assets_test {
 
 std::filesystem::path asset(const std::string& name) {
   return lagomorph::tests::source_dir() / "assets" / "meshes" / name;
@@ -89,5 +89,5 @@ TEST(Assets, TheBarIsTheReferenceSolutions) {
   EXPECT_EQ(bar.tags, truth.tags);
 }
 
-}  // namespace
+}  // namespace assets_test
 }  // namespace lagomorph::sim

@@ -9,7 +9,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace block_hessian_test {
 
 std::shared_ptr<const BlockPattern> pattern_of(const TetMesh& mesh) {
   return std::make_shared<const BlockPattern>(mesh.vertex_count(), mesh.tets);
@@ -145,5 +145,5 @@ TEST(BlockHessian, EstimatesTheRoundingOfAProduct) {
   EXPECT_GT(actual, 0.2 * estimate);
 }
 
-}  // namespace
+}  // namespace block_hessian_test
 }  // namespace lagomorph::sim

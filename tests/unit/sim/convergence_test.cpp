@@ -16,7 +16,7 @@
 
 /// What the elements are worth: orders of convergence, and locking.
 namespace lagomorph::sim {
-namespace {
+namespace convergence_test {
 
 constexpr double kYoung = 1e4, kPoisson = 0.3;
 
@@ -167,5 +167,5 @@ TEST(VolumetricLocking, LinearTetsLockAndQuadraticOnesDoNot) {
   EXPECT_LT(tet4_refined, 0.8 * reference);
 }
 
-}  // namespace
+}  // namespace convergence_test
 }  // namespace lagomorph::sim

@@ -12,7 +12,7 @@
 #include "tests/unit/sim/motion.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace damping_test {
 
 class EachDamped : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Damping, EachDamped, testing::ValuesIn(dynamic_integrators()),
@@ -320,5 +320,5 @@ TEST_P(EachDamped, TakesDampingToTheSameBytesFromAState) {
   EXPECT_EQ(resumed.state.qdot, whole.state.qdot);
 }
 
-}  // namespace
+}  // namespace damping_test
 }  // namespace lagomorph::sim

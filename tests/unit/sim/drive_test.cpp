@@ -10,7 +10,7 @@
 
 /// Pins that move and let go, loads that change: in each scheme, by what its own discrete balance says.
 namespace lagomorph::sim {
-namespace {
+namespace drive_test {
 
 struct Motion {
   Model model;
@@ -377,5 +377,5 @@ TEST(Model, StartsWithSpinAboutTheCenterOfMassAndVelocitiesOfAFile) {
   EXPECT_NEAR(one.min_J(one.initial_state().q), 1.0, 1e-13);
 }
 
-}  // namespace
+}  // namespace drive_test
 }  // namespace lagomorph::sim

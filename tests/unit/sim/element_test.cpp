@@ -18,7 +18,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace element_test {
 
 VecX random_vector(Eigen::Index size, unsigned seed, double amount) {
   std::mt19937 random(seed);
@@ -258,5 +258,5 @@ TEST(QuadraticTets, LoseTheirMidsideNodesAgain) {
   EXPECT_EQ(back.bodies[0].vertices.end, mesh.vertex_count());
 }
 
-}  // namespace
+}  // namespace element_test
 }  // namespace lagomorph::sim

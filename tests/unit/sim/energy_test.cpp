@@ -18,7 +18,7 @@
 /// Each term of the potential: its derivatives by finite differences, and its sums against the slow obvious
 /// ones.
 namespace lagomorph::sim {
-namespace {
+namespace energy_test {
 
 VecX random_vector(Eigen::Index size, unsigned seed, double amount) {
   std::mt19937 random(seed);
@@ -289,5 +289,5 @@ TEST(GravityTerm, IsMinusTheForceTimesThePosition) {
   EXPECT_DOUBLE_EQ(Gravity(force).value(q), 9.81 + 2 * 19.62);
 }
 
-}  // namespace
+}  // namespace energy_test
 }  // namespace lagomorph::sim

@@ -11,7 +11,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace fields_test {
 
 constexpr double kMu = 3e5, kLambda = 7e5;
 
@@ -176,5 +176,5 @@ TEST(Fields, AreWrittenBesideAMeshThatReadsBack) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace fields_test
 }  // namespace lagomorph::sim

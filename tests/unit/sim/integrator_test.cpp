@@ -16,7 +16,7 @@
 #include "tests/unit/sim/motion.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace integrator_test {
 
 // --- The reference bar -------------------------------------------------------------------------------------
 
@@ -608,5 +608,5 @@ TEST(MakeIntegrator, TellsWhatIsWrong) {
   }
 }
 
-}  // namespace
+}  // namespace integrator_test
 }  // namespace lagomorph::sim

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::sim {
-namespace {
+namespace inversion_test {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -64,5 +64,5 @@ TEST(StepWithoutInversion, WorksFromANearlyFlatTet) {
   EXPECT_EQ(step_without_inversion(F, Vec3(0, 1, 0).asDiagonal()), 1.0);
 }
 
-}  // namespace
+}  // namespace inversion_test
 }  // namespace lagomorph::sim

@@ -6,7 +6,7 @@
 #include "tests/support/truth.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace kinematics_test {
 
 /// The irregular tet of the reference, at rest and deformed.
 struct ReferenceTet {
@@ -144,5 +144,5 @@ TEST(GatherCorners, TakesTheTetsOwn) {
   EXPECT_EQ(x.col(3), Vec3(3, 4, 5));
 }
 
-}  // namespace
+}  // namespace kinematics_test
 }  // namespace lagomorph::sim

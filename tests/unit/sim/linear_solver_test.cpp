@@ -8,7 +8,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace linear_solver_test {
 
 /// A system on the cube's pattern: the graph's Laplacian in each coordinate, coupled at random, shifted by
 /// `shift` times the identity.
@@ -145,5 +145,5 @@ TEST(LinearAlgebra, IsOpenBLASUnderCHOLMOD) {
   EXPECT_EQ(std::count(info.cholmod.begin(), info.cholmod.end(), '.'), 2) << info.cholmod;
 }
 
-}  // namespace
+}  // namespace linear_solver_test
 }  // namespace lagomorph::sim

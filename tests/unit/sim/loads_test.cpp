@@ -7,7 +7,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace loads_test {
 
 /// The force on the unit cube's vertices at t.
 VecX force_of(const LoadSettings& load, double t = 0.0, int n = 3) {
@@ -132,5 +132,5 @@ TEST(Loads, TellWhatIsWrong) {
             "body 'body0': load 0: vertex 99 is out of range; the body's vertices are 0 to 63");
 }
 
-}  // namespace
+}  // namespace loads_test
 }  // namespace lagomorph::sim

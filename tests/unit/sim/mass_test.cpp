@@ -6,7 +6,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace mass_test {
 
 TEST(ElementMass, MeetsTheReferenceTet) {
   const auto truth = truth::json("2_tet/tet.json");
@@ -70,5 +70,5 @@ TEST(AssembledMass, LumpedHasNoEntriesOffTheDiagonal) {
   EXPECT_NEAR(m.sum(), 1000.0, 1e-10);
 }
 
-}  // namespace
+}  // namespace mass_test
 }  // namespace lagomorph::sim

@@ -9,7 +9,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace mesh_check_test {
 
 std::string check_error(TetMesh mesh) {
   Remarks remarks;
@@ -316,5 +316,5 @@ TEST(MeshCheck, WeldMergesEqualPositionsOnly) {
   EXPECT_EQ(weld(mesh), 0);
 }
 
-}  // namespace
+}  // namespace mesh_check_test
 }  // namespace lagomorph::sim

@@ -13,7 +13,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace mesh_io_test {
 
 void expect_same(const TetMesh& a, const TetMesh& b) {
   EXPECT_EQ(a.X, b.X);
@@ -300,5 +300,5 @@ TEST(MeshIo, StrayVerticesAreRefusedUnlessTheyAreToBeDropped) {
   EXPECT_EQ(kept.bodies[0].vertices.end, 4);
 }
 
-}  // namespace
+}  // namespace mesh_io_test
 }  // namespace lagomorph::sim

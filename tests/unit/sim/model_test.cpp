@@ -9,7 +9,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace model_test {
 
 const Vec3 kGravity(0, -9.81, 0);
 
@@ -193,5 +193,5 @@ TEST(Model, TellsWhatIsWrong) {
             "body 'body1': another body has that name; give each its own");
 }
 
-}  // namespace
+}  // namespace model_test
 }  // namespace lagomorph::sim

@@ -6,7 +6,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace newton_test {
 
 /// A soft cube held at its bottom.
 Model cube_model(const std::string& material = "stable_neo_hookean",
@@ -238,5 +238,5 @@ TEST(Newton, TellsWhichSettingIsOutOfRange) {
             "unknown solver.hessian 'exact'; valid ones are auto, projected");
 }
 
-}  // namespace
+}  // namespace newton_test
 }  // namespace lagomorph::sim

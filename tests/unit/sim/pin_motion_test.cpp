@@ -8,7 +8,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace pin_motion_test {
 
 Points two_points() {
   Points X(2, 3);
@@ -140,5 +140,5 @@ TEST(PinMotion, TellsWhatIsWrong) {
   EXPECT_EQ(error_of([&] { motion(pin, path); }), "here: path_fps must be > 0");
 }
 
-}  // namespace
+}  // namespace pin_motion_test
 }  // namespace lagomorph::sim

@@ -5,7 +5,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace pins_test {
 
 TEST(Pins, DropTheirCoordinates) {
   const Pins pins(4, {2, 0, 2});
@@ -162,5 +162,5 @@ TEST(SelectVertices, TellsWhatIsWrong) {
   EXPECT_EQ(error([](P& p) { p.bottom = 1.5; }), "here: bottom = 1.5 must be in (0, 1]");
 }
 
-}  // namespace
+}  // namespace pins_test
 }  // namespace lagomorph::sim

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::sim {
-namespace {
+namespace placement_test {
 
 TEST(Rotation, TurnsAboutTheFixedXThenYThenZ) {
   const double degree = std::acos(-1.0) / 180.0;
@@ -43,5 +43,5 @@ TEST(Place, LeavesExactlyWhatIsNotMoved) {
   EXPECT_EQ(X, before);
 }
 
-}  // namespace
+}  // namespace placement_test
 }  // namespace lagomorph::sim

@@ -8,7 +8,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace point_location_test {
 
 TetCorners corners_of(const TetMesh& mesh, int j) {
   TetCorners corners;
@@ -117,5 +117,5 @@ TEST(PointLocation, InterpolatesAnAffineMapExactly) {
   }
 }
 
-}  // namespace
+}  // namespace point_location_test
 }  // namespace lagomorph::sim

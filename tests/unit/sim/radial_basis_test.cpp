@@ -8,7 +8,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace radial_basis_test {
 
 struct Scattered {
   std::vector<Vec3> points;
@@ -82,5 +82,5 @@ TEST(RadialBasis, TellsWhatIsWrong) {
             "here: unknown kernel 'cubic'; valid ones are biharmonic, triharmonic, gaussian");
 }
 
-}  // namespace
+}  // namespace radial_basis_test
 }  // namespace lagomorph::sim

@@ -10,7 +10,7 @@
 #include "tests/unit/sim/motion.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace start_test {
 
 Model cube(const std::string& start, bool held, int seed = 0,
            const std::string& model = "stable_neo_hookean") {
@@ -116,5 +116,5 @@ TEST_P(InversionRecovery, FindsHomeInDampedMotion) {
   EXPECT_LT(distance_to_rest(run.model, run.state.q), 1e-3);
 }
 
-}  // namespace
+}  // namespace start_test
 }  // namespace lagomorph::sim

@@ -8,7 +8,7 @@
 #include "tests/unit/sim/motion.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace static_integrator_test {
 
 double distance(const VecX& a, const VecX& b) { return (a - b).cwiseAbs().maxCoeff(); }
 
@@ -147,5 +147,5 @@ TEST(Static, FindsItsWayHomeWithoutPins) {
   EXPECT_LT(run.model.energies_of(run.state).elastic, 1e-6);
 }
 
-}  // namespace
+}  // namespace static_integrator_test
 }  // namespace lagomorph::sim

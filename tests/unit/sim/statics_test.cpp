@@ -6,7 +6,7 @@
 #include "tests/support/truth.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace statics_test {
 
 struct Case {
   const char* name;
@@ -62,5 +62,5 @@ INSTANTIATE_TEST_SUITE_P(Statics, SaggingBar,
                            return std::string(info.param.name) + "_" + info.param.model;
                          });
 
-}  // namespace
+}  // namespace statics_test
 }  // namespace lagomorph::sim

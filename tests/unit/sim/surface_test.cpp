@@ -7,7 +7,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace surface_test {
 
 VecX flat(const Points& x) { return Eigen::Map<const VecX>(x.data(), x.size()); }
 
@@ -90,5 +90,5 @@ TEST(Surface, PositionsNeedAllVertices) {
   EXPECT_EQ(error_of([&] { surface.positions(VecX::Zero(9)); }), "positions of 3 vertices for a mesh of 4");
 }
 
-}  // namespace
+}  // namespace surface_test
 }  // namespace lagomorph::sim

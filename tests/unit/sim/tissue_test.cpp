@@ -13,7 +13,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace tissue_test {
 
 MaterialSettings material(double young, double poisson = 0.3, const char* model = "stable_neo_hookean") {
   MaterialSettings settings;
@@ -245,5 +245,5 @@ TEST(Tissue, TellsWhatIsWrong) {
             "body 'a': field 0: tet 3: poisson = -0.1 must be in [0, 0.5) for neo_hookean");
 }
 
-}  // namespace
+}  // namespace tissue_test
 }  // namespace lagomorph::sim

@@ -2,7 +2,7 @@
 
 /// `lagomorph approve`, and checks of what it leaves.
 namespace lagomorph::tests {
-namespace {
+namespace approve_command_test {
 
 using Json = nlohmann::json;
 
@@ -233,5 +233,5 @@ TEST_F(ApproveCommand, Json) {
   EXPECT_TRUE(json["accepted"][0]["new"].get<bool>());
 }
 
-}  // namespace
+}  // namespace approve_command_test
 }  // namespace lagomorph::tests

@@ -3,7 +3,7 @@
 
 /// `lagomorph check --calibrate` of pictures of the committed states.
 namespace lagomorph::tests {
-namespace {
+namespace calibrate_command_test {
 
 using Json = nlohmann::json;
 
@@ -83,5 +83,5 @@ TEST_F(CalibrateCommand, RefusesWhatItCannotCalibrate) {
   EXPECT_EQ(check({"--yes"}).status, 2);
 }
 
-}  // namespace
+}  // namespace calibrate_command_test
 }  // namespace lagomorph::tests

@@ -12,7 +12,7 @@
 
 /// Limits from figures that are made up, and the faults themselves.
 namespace lagomorph::apps {
-namespace {
+namespace propose_test {
 
 CalibrationCase make(const std::string& name, bool harmless, int frame, double flip_tile, double flip_mean,
                      double bias_tile) {
@@ -125,5 +125,5 @@ TEST(Faults, AClusterIsWhereTheCameraLooks) {
   EXPECT_THROW(visible_cluster({mesh}, render::Camera(towards, 64, 64), 0), Error);
 }
 
-}  // namespace
+}  // namespace propose_test
 }  // namespace lagomorph::apps

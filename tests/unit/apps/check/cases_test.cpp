@@ -4,7 +4,7 @@
 /// The list of cases that tell a check's worth: what nobody sees passes by the defaults, what one looks for
 /// fails.
 namespace lagomorph::tests {
-namespace {
+namespace cases_test {
 
 struct Case {
   const char* name;
@@ -77,5 +77,5 @@ TEST_P(CheckCases, AreSortedRightly) {
 INSTANTIATE_TEST_SUITE_P(All, CheckCases, testing::Range(0, 18),
                          [](const auto& info) { return cases()[static_cast<std::size_t>(info.param)].name; });
 
-}  // namespace
+}  // namespace cases_test
 }  // namespace lagomorph::tests

@@ -6,7 +6,7 @@
 
 /// What `lagomorph check` says of why pictures differ, of runs of the small bar.
 namespace lagomorph::tests {
-namespace {
+namespace causes_test {
 
 using Json = nlohmann::ordered_json;
 
@@ -136,5 +136,5 @@ TEST_F(Causes, StatesAreKeptByGoldenToml) {
   expect(2, {"approve", at("old").string(), at("golden").string(), "--states", "-1"});
 }
 
-}  // namespace
+}  // namespace causes_test
 }  // namespace lagomorph::tests

@@ -6,7 +6,7 @@
 
 /// `lagomorph check` as scripts see it.
 namespace lagomorph::tests {
-namespace {
+namespace check_command_test {
 
 using Json = nlohmann::json;
 using CheckCommand = CheckFixture;
@@ -466,5 +466,5 @@ TEST_F(CheckCommand, AFullDiskIsTheMachines) {
   EXPECT_EQ(ended.status, 4) << ended.err;
 }
 
-}  // namespace
+}  // namespace check_command_test
 }  // namespace lagomorph::tests

@@ -8,7 +8,7 @@
 
 /// The preset mc of `lagomorph check`, on pictures that are path-traced from the committed states.
 namespace lagomorph::tests {
-namespace {
+namespace monte_carlo_test {
 
 using Json = nlohmann::json;
 
@@ -143,5 +143,5 @@ TEST_F(MonteCarlo, ApprovingTakesTheStatisticsAlong) {
   EXPECT_FALSE(std::filesystem::exists(at("golden") / name));  // they were of another picture
 }
 
-}  // namespace
+}  // namespace monte_carlo_test
 }  // namespace lagomorph::tests

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace report_html_test {
 
 CheckResult failing() {
   CheckResult result;
@@ -49,5 +49,5 @@ TEST(ReportHtml, EscapesWhatItIsGivenAndAsksForNothing) {
   EXPECT_EQ(html.find("http"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace report_html_test
 }  // namespace lagomorph::apps

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace result_test {
 
 FrameResult frame(int number, std::optional<double> tile, bool passes) {
   FrameResult result;
@@ -37,5 +37,5 @@ TEST(CheckResult, CountsAndSortsTheFailingFrames) {
   EXPECT_EQ(frame_commands(result, 2).approve, "lagomorph approve 'out/a b' golden/a --frames 2");
 }
 
-}  // namespace
+}  // namespace result_test
 }  // namespace lagomorph::apps

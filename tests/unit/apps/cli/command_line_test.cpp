@@ -8,7 +8,7 @@
 #include "apps/version.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace command_line_test {
 
 CommandLine parse(const std::vector<std::string>& arguments) { return parse_command_line(arguments); }
 
@@ -189,5 +189,5 @@ TEST(Frames, AreARangeOrANumber) {
             "--frames -3..5: must be A..B or one number, counted from 0");
 }
 
-}  // namespace
+}  // namespace command_line_test
 }  // namespace lagomorph::apps

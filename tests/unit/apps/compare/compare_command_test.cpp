@@ -16,7 +16,7 @@
 
 /// `lagomorph compare` as scripts see it.
 namespace lagomorph::tests {
-namespace {
+namespace compare_command_test {
 
 using Json = nlohmann::ordered_json;
 
@@ -260,5 +260,5 @@ TEST_F(OddPictures, NothingIsWrittenOfARefusal) {
   EXPECT_FALSE(std::filesystem::exists(heat));
 }
 
-}  // namespace
+}  // namespace compare_command_test
 }  // namespace lagomorph::tests

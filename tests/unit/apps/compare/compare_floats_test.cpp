@@ -10,7 +10,7 @@
 
 /// `lagomorph compare A.npy B.npy`.
 namespace lagomorph::tests {
-namespace {
+namespace compare_floats_test {
 
 using Json = nlohmann::json;
 
@@ -110,5 +110,5 @@ TEST_F(CompareFloats, RefusesWhatIsNoPicture) {
   refusal(at("b.png").string());
 }
 
-}  // namespace
+}  // namespace compare_floats_test
 }  // namespace lagomorph::tests

@@ -3,7 +3,7 @@
 
 /// `lagomorph export` as scripts see it.
 namespace lagomorph::tests {
-namespace {
+namespace export_command_test {
 
 using Json = nlohmann::json;
 
@@ -65,5 +65,5 @@ TEST_F(ExportCommand, SaysWhatIsWrong) {
   EXPECT_FALSE(std::filesystem::exists(at("run/export")));
 }
 
-}  // namespace
+}  // namespace export_command_test
 }  // namespace lagomorph::tests

@@ -8,7 +8,7 @@
 #include "tests/unit/apps/pipeline/run_fixture.h"
 
 namespace lagomorph::tests {
-namespace {
+namespace pictures_test {
 
 class ExportedPictures : public ProgramRun {};
 
@@ -50,5 +50,5 @@ TEST(PictureName, PadsTheNumber) {
     EXPECT_THROW(apps::picture_name(wrong, 0), apps::Error) << wrong;
 }
 
-}  // namespace
+}  // namespace pictures_test
 }  // namespace lagomorph::tests

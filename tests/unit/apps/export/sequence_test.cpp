@@ -11,7 +11,7 @@
 
 /// Whole sequences in a file: binary glTF and USD ASCII, held to the frames as .ply.
 namespace lagomorph::tests {
-namespace {
+namespace sequence_test {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
@@ -178,5 +178,5 @@ TEST_F(ExportSequence, AFileThatCannotBeWrittenLeavesNone) {
   }
 }
 
-}  // namespace
+}  // namespace sequence_test
 }  // namespace lagomorph::tests

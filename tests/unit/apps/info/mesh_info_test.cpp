@@ -13,7 +13,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace mesh_info_test {
 
 /// Two tets on the unit right triangle, of tags 3 and 7, apexes 1 above and 2 below; and a vertex of neither.
 const char stray_medit[] =
@@ -108,5 +108,5 @@ TEST(Report, IsOneLineAFactAndJsonWhateverTheBytes) {
   EXPECT_EQ(nlohmann::json::parse(report.json())["name"], "two\nlines");
 }
 
-}  // namespace
+}  // namespace mesh_info_test
 }  // namespace lagomorph::apps

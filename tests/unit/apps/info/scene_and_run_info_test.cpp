@@ -12,7 +12,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace scene_and_run_info_test {
 
 /// A scene of one tet that stands on its right triangle in y = 0, hung by its apex.
 class SmallScene : public testing::Test {
@@ -144,5 +144,5 @@ TEST_F(SmallScene, WhatIsNoRunIsAnError) {
   }
 }
 
-}  // namespace
+}  // namespace scene_and_run_info_test
 }  // namespace lagomorph::apps

@@ -16,7 +16,7 @@
 #include "tests/support/program.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace material_command_test {
 
 using tests::Ended;
 using tests::TemporaryDirectory;
@@ -201,5 +201,5 @@ TEST(LoadCurves, MeetTheReferenceUnderUniaxialAndBiaxialLoad) {
   }
 }
 
-}  // namespace
+}  // namespace material_command_test
 }  // namespace lagomorph::apps

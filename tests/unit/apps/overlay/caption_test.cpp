@@ -7,7 +7,7 @@
 #include "apps/error.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace caption_test {
 
 const CaptionValues some = {.name = "bunny",
                             .frame = 7,
@@ -84,5 +84,5 @@ TEST(Caption, IsNotDrawnWhereThereIsNoRoom) {
   EXPECT_EQ(drawn("frame 7", "top", 20, 8).right, -1);
 }
 
-}  // namespace
+}  // namespace caption_test
 }  // namespace lagomorph::apps

@@ -9,7 +9,7 @@
 #include "apps/overlay/overlay.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace color_bar_test {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
@@ -152,5 +152,5 @@ TEST(Overlay, RectanglesCoverPixelsInPart) {
   EXPECT_EQ(pixel(picture, 5, 3), (Rgb{100, 100, 100}));
 }
 
-}  // namespace
+}  // namespace color_bar_test
 }  // namespace lagomorph::apps

@@ -10,7 +10,7 @@
 #include "apps/preview/small_picture.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace stroke_font_test {
 
 std::vector<std::uint8_t> drawn(const std::string& text, double x = 4, double y = 20) {
   render::Picture picture = filled({32, 32}, {0, 0, 0});
@@ -66,5 +66,5 @@ TEST(StrokeFont, ShortensToAWidth) {
   }
 }
 
-}  // namespace
+}  // namespace stroke_font_test
 }  // namespace lagomorph::apps

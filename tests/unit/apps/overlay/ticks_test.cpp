@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace ticks_test {
 
 using Values = std::vector<double>;
 
@@ -30,5 +30,5 @@ TEST(Ticks, OfDecadesArePowersOfTen) {
   EXPECT_GE(many.back(), 1e-3 * (1 - 1e-9));
 }
 
-}  // namespace
+}  // namespace ticks_test
 }  // namespace lagomorph::apps

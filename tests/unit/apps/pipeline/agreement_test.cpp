@@ -14,7 +14,7 @@
 
 /// The same states drawn by both back ends: what one sees where, the other sees there.
 namespace lagomorph::tests {
-namespace {
+namespace agreement_test {
 
 namespace fs = std::filesystem;
 
@@ -130,5 +130,5 @@ TEST_F(Agreement, OfLight) {
   RecordProperty("bias", std::to_string(bias / count));
 }
 
-}  // namespace
+}  // namespace agreement_test
 }  // namespace lagomorph::tests

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace bounded_queue_test {
 
 TEST(BoundedQueue, HandsOverInOrderAndNeverHoldsMore) {
   BoundedQueue<int> queue(2);
@@ -59,5 +59,5 @@ TEST(BoundedQueue, AbandoningFreesWhoWaits) {
   EXPECT_FALSE(full.pop().has_value());
 }
 
-}  // namespace
+}  // namespace bounded_queue_test
 }  // namespace lagomorph::apps

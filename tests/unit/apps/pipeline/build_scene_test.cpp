@@ -14,7 +14,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace build_scene_test {
 
 SceneDesc bar_scene(const std::vector<std::string>& overrides = {}) {
   return load_scene(tests::data_file("run/bar.toml"), overrides);
@@ -158,5 +158,5 @@ TEST(BuildScene, BodiesMoveAsFilesSay) {
   EXPECT_TRUE(told({bottom, "body.0.pin.1.path='gone.txt'"}).ends_with("known are .npy"));
 }
 
-}  // namespace
+}  // namespace build_scene_test
 }  // namespace lagomorph::apps

@@ -7,7 +7,7 @@
 #include "tests/support/run_tree.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace camera_rig_test {
 
 /// The small bar and a camera.
 struct Rigged {
@@ -65,5 +65,5 @@ TEST(CameraRig, FollowsAndFits) {
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(bar.rig.fitted_box().value()[i], first[i], 1e-12) << i;
 }
 
-}  // namespace
+}  // namespace camera_rig_test
 }  // namespace lagomorph::apps

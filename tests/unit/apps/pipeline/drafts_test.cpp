@@ -12,7 +12,7 @@
 
 /// Parts of sequences and of pictures: --every, --half, --region.
 namespace lagomorph::tests {
-namespace {
+namespace drafts_test {
 
 namespace fs = std::filesystem;
 
@@ -126,5 +126,5 @@ TEST(DraftScene, HasAQuarterOfTheSamples) {
   EXPECT_EQ(half.render.width, 33);
 }
 
-}  // namespace
+}  // namespace drafts_test
 }  // namespace lagomorph::tests

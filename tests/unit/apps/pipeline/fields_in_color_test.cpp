@@ -12,7 +12,7 @@
 
 /// Runs whose pictures show a scalar field in colour.
 namespace lagomorph::tests {
-namespace {
+namespace fields_in_color_test {
 
 namespace fs = std::filesystem;
 
@@ -150,5 +150,5 @@ TEST_F(FieldsInColor, WrongKeysAreTold) {
   EXPECT_FALSE(fs::exists(at("r")));
 }
 
-}  // namespace
+}  // namespace fields_in_color_test
 }  // namespace lagomorph::tests

@@ -11,7 +11,7 @@
 
 /// What the machine may fail in: status 4, what was made is kept, the same command goes on.
 namespace lagomorph::tests {
-namespace {
+namespace machine_failure_test {
 
 namespace fs = std::filesystem;
 
@@ -127,5 +127,5 @@ TEST_F(MachineFailure, TheVideoOfShardsIsThatOfTheWhole) {
   expect_same_run(at("whole"), at("r"));
 }
 
-}  // namespace
+}  // namespace machine_failure_test
 }  // namespace lagomorph::tests

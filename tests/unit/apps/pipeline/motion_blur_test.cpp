@@ -6,7 +6,7 @@
 #include "tests/unit/apps/pipeline/run_fixture.h"
 
 namespace lagomorph::tests {
-namespace {
+namespace motion_blur_test {
 
 namespace fs = std::filesystem;
 
@@ -47,5 +47,5 @@ TEST_F(MotionBlurRun, TheRasterizerSaysWhatItDrawsInstead) {
   EXPECT_NE(ended.err.find("raster: the sky's map is a gradient"), std::string::npos) << ended.err;
 }
 
-}  // namespace
+}  // namespace motion_blur_test
 }  // namespace lagomorph::tests

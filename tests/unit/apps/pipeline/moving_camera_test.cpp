@@ -7,7 +7,7 @@
 
 /// Runs whose camera moves or depends on the bodies.
 namespace lagomorph::tests {
-namespace {
+namespace moving_camera_test {
 
 const Arguments moves = {"--set", "camera.turntable.turns=1",    "--set", "camera.frame=motion",
                          "--set", "camera.follow=center_of_mass"};
@@ -76,5 +76,5 @@ TEST_F(MovingCamera, MoreStatesNeedMoreRoom) {
   EXPECT_LT(box.at(0).get<double>(), box.at(3).get<double>());
 }
 
-}  // namespace
+}  // namespace moving_camera_test
 }  // namespace lagomorph::tests

@@ -17,7 +17,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace painted_fields_test {
 
 /// Two tets, of tags 1 and 2, beside each other along x.
 class TwoTets : public testing::Test {
@@ -123,5 +123,5 @@ TEST_F(TwoTets, TellWhatIsWrongWithItsPlace) {
             "two.toml:6:12: body.0.region.0.material: mu is given without lambda; give both");
 }
 
-}  // namespace
+}  // namespace painted_fields_test
 }  // namespace lagomorph::apps

@@ -13,7 +13,7 @@
 
 /// Several pictures in one.
 namespace lagomorph::tests {
-namespace {
+namespace panels_test {
 
 render::Pixels picture(const std::filesystem::path& run, int frame) {
   const std::filesystem::path file = run / ("frames/frame_000" + std::to_string(frame) + ".png");
@@ -118,5 +118,5 @@ TEST_F(Panels, WhatIsWrongIsTold) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace panels_test
 }  // namespace lagomorph::tests

@@ -7,7 +7,7 @@
 #include "tests/unit/apps/pipeline/run_fixture.h"
 
 namespace lagomorph::tests {
-namespace {
+namespace render_command_test {
 
 namespace fs = std::filesystem;
 
@@ -179,5 +179,5 @@ TEST_F(RenderCommand, TheRasterizerSaysWhatItDrawsInsteadOfAClearInside) {
   EXPECT_NE(said.find("transmission is an opaque base of absorption_color"), std::string::npos) << said;
 }
 
-}  // namespace
+}  // namespace render_command_test
 }  // namespace lagomorph::tests

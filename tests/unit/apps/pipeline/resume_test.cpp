@@ -8,7 +8,7 @@
 
 /// Whole, killed and resumed, in shards, with one thread or two: the same bytes.
 namespace lagomorph::tests {
-namespace {
+namespace resume_test {
 
 namespace fs = std::filesystem;
 
@@ -139,5 +139,5 @@ TEST_P(Interrupt, LeavesWholeRecordsAndSaysHowToGoOn) {
   expect_same_run(at("whole"), at("r"));
 }
 
-}  // namespace
+}  // namespace resume_test
 }  // namespace lagomorph::tests

@@ -14,7 +14,7 @@
 #include "tests/unit/apps/pipeline/run_fixture.h"
 
 namespace lagomorph::tests {
-namespace {
+namespace run_command_test {
 
 namespace fs = std::filesystem;
 using apps::sha256;
@@ -334,5 +334,5 @@ TEST_F(RunCommand, AnUnconvergedStepEndsTheRunWithTheLastGoodFrame) {
   EXPECT_EQ(nlohmann::json::parse(again.out).at("status"), "failed");
 }
 
-}  // namespace
+}  // namespace run_command_test
 }  // namespace lagomorph::tests

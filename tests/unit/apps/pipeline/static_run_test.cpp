@@ -11,7 +11,7 @@
 #include "tests/unit/apps/pipeline/run_fixture.h"
 
 namespace lagomorph::tests {
-namespace {
+namespace static_run_test {
 
 class StaticRun : public ProgramRun {
 protected:
@@ -169,5 +169,5 @@ TEST_F(StaticRun, ScrambledBodyFindsHome) {
   EXPECT_LT(after, 1e-6);
 }
 
-}  // namespace
+}  // namespace static_run_test
 }  // namespace lagomorph::tests

@@ -9,7 +9,7 @@
 #include "tests/support/run_tree.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace surface_fields_test {
 
 using Range = std::array<double, 2>;
 
@@ -143,5 +143,5 @@ TEST(SurfaceFields, BarsTellTheFieldAndItsUnit) {
   EXPECT_TRUE(Shown({"body.0.look.field=J", "body.0.look.color_bar=false"}).fields.bars().empty());
 }
 
-}  // namespace
+}  // namespace surface_fields_test
 }  // namespace lagomorph::apps

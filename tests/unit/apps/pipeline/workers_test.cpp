@@ -10,7 +10,7 @@
 #include "apps/pipeline/bounded_queue.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace workers_test {
 
 std::string message(const std::exception_ptr& error) {
   if (!error) return "";
@@ -58,5 +58,5 @@ TEST(Workers, ThatAreNotFinishedEndToo) {
   EXPECT_TRUE(ended);
 }
 
-}  // namespace
+}  // namespace workers_test
 }  // namespace lagomorph::apps

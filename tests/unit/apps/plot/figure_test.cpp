@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace figure_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -150,5 +150,5 @@ TEST(Strokes, AreNotDarkerWhereTheyCross) {
   EXPECT_EQ(red(1, 1), 255);
 }
 
-}  // namespace
+}  // namespace figure_test
 }  // namespace lagomorph::apps

@@ -5,7 +5,7 @@
 
 /// `lagomorph plot` as scripts see it, and the columns that it knows.
 namespace lagomorph::tests {
-namespace {
+namespace plot_command_test {
 
 using Json = nlohmann::json;
 using PlotCommand = ProgramRun;
@@ -93,5 +93,5 @@ TEST_F(PlotCommand, SaysWhatIsWrong) {
   EXPECT_FALSE(std::filesystem::exists(at("run/plot")));
 }
 
-}  // namespace
+}  // namespace plot_command_test
 }  // namespace lagomorph::tests

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace chart_test {
 
 using Values = std::vector<double>;
 
@@ -53,5 +53,5 @@ TEST(Chart, StandsOneFrameZerosAndManyFrames) {
   EXPECT_LE(std::count(points.begin(), points.end(), ','), 600);
 }
 
-}  // namespace
+}  // namespace chart_test
 }  // namespace lagomorph::apps

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace html_test {
 
 TEST(Html, KeepsTextFromMeaningAnything) {
   EXPECT_EQ(html_text("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&#39;");
@@ -20,5 +20,5 @@ TEST(Html, HoldsBytesAsBase64) {
   EXPECT_EQ(data_uri("a/b", "\xff\xfe\xfb"), "data:a/b;base64,//77");
 }
 
-}  // namespace
+}  // namespace html_test
 }  // namespace lagomorph::apps

@@ -2,7 +2,7 @@
 
 /// RUN/preview/index.html, without a browser: tests/full/preview.sh has one.
 namespace lagomorph::tests {
-namespace {
+namespace page_test {
 
 using PreviewPage = PreviewFixture;
 
@@ -76,5 +76,5 @@ TEST_F(PreviewPage, MarksFramesThatCannotBeRead) {
   EXPECT_EQ(count(made("shots", "index.html"), "<div class=\"none\">unreadable</div>"), 1U);
 }
 
-}  // namespace
+}  // namespace page_test
 }  // namespace lagomorph::tests

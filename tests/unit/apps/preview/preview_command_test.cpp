@@ -3,7 +3,7 @@
 
 /// `lagomorph preview` as scripts see it.
 namespace lagomorph::tests {
-namespace {
+namespace preview_command_test {
 
 using Json = nlohmann::json;
 using PreviewCommand = PreviewFixture;
@@ -152,5 +152,5 @@ TEST_F(PreviewCommand, KeepsOddNamesFromMeaningAnything) {
   EXPECT_TRUE(contains(summary, "## a\\|b &lt;i>&amp;\"c' \\`d\\` \\*e\\*: 2 pictures")) << summary;
 }
 
-}  // namespace
+}  // namespace preview_command_test
 }  // namespace lagomorph::tests

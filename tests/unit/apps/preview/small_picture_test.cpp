@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace small_picture_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -49,5 +49,5 @@ TEST(SmallPicture, IsCutAtTheCanvasEdge) {
   EXPECT_EQ(canvas.rgb, (Bytes{0, 0, 0, 9, 9, 9, 0, 0, 0, 0, 0, 0}));
 }
 
-}  // namespace
+}  // namespace small_picture_test
 }  // namespace lagomorph::apps

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace progress_test {
 
 std::string said(bool quiet, const auto& what) {
   testing::internal::CaptureStderr();
@@ -52,5 +52,5 @@ TEST(Progress, Durations) {
   EXPECT_EQ(duration_text(-1.0), "0.0 s");
 }
 
-}  // namespace
+}  // namespace progress_test
 }  // namespace lagomorph::apps

@@ -6,7 +6,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace refine_command_test {
 
 const char two_tets[] =
     "MeshVersionFormatted 2\nDimension 3\nVertices\n5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 -2 0\n"
@@ -54,5 +54,5 @@ TEST(RefineCommand, NeedsAPlaceToWriteTo) {
   EXPECT_THROW(refine_command(options), sim::InputError);
 }
 
-}  // namespace
+}  // namespace refine_command_test
 }  // namespace lagomorph::apps

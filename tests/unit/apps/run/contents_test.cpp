@@ -11,7 +11,7 @@
 #include "tests/unit/apps/run/run_fixture.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace contents_test {
 
 namespace fs = std::filesystem;
 
@@ -167,5 +167,5 @@ TEST(RunContents, RemovesWhatDoesNotMatchAndWhatWasLeft) {
   EXPECT_FALSE(records.at(2).picture.has_value());
 }
 
-}  // namespace
+}  // namespace contents_test
 }  // namespace lagomorph::apps

@@ -9,7 +9,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace disk_space_test {
 
 TEST(DiskSpace, ExpectedSizeCountsWhatIsMade) {
   render::RenderSettings render;
@@ -50,5 +50,5 @@ TEST(DiskSpace, SizesAsText) {
   EXPECT_EQ(size_text(5400000000), "5.4 GB");
 }
 
-}  // namespace
+}  // namespace disk_space_test
 }  // namespace lagomorph::apps

@@ -8,7 +8,7 @@
 #include "tests/unit/apps/run/run_fixture.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace energy_csv_test {
 
 std::vector<std::string> fields(const std::string& line) {
   std::vector<std::string> all;
@@ -45,5 +45,5 @@ TEST(EnergyCsv, AddsUpTheWorksAndTheForcesOfThePins) {
   EXPECT_FALSE(std::getline(lines, line));
 }
 
-}  // namespace
+}  // namespace energy_csv_test
 }  // namespace lagomorph::apps

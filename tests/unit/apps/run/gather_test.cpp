@@ -11,7 +11,7 @@
 #include "tests/unit/apps/run/run_fixture.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace gather_test {
 
 namespace fs = std::filesystem;
 using tests::read_all;
@@ -83,5 +83,5 @@ TEST(RunJson, ReadsBack) {
   EXPECT_EQ(run_json_text(*read, {{0, some_record(0)}}), read_all(paths.run_json()));
 }
 
-}  // namespace
+}  // namespace gather_test
 }  // namespace lagomorph::apps

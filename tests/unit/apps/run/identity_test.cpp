@@ -10,7 +10,7 @@
 #include "tests/unit/apps/run/run_fixture.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace identity_test {
 
 TEST(Identity, HashesFollowTheKeys) {
   const Identity a = some_identity();
@@ -68,5 +68,5 @@ TEST(Identity, OfASceneKnowsWhatStatesAndPicturesDependOn) {
   EXPECT_EQ(a.state_maker(), identity({}, "another build").state_maker());
 }
 
-}  // namespace
+}  // namespace identity_test
 }  // namespace lagomorph::apps

@@ -12,7 +12,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace inputs_test {
 
 namespace fs = std::filesystem;
 using tests::read_all;
@@ -70,5 +70,5 @@ TEST(Inputs, ASceneThatStandsInTheRunIsTheSame) {
   tests::expect_same_run(paths.root(), other.root());
 }
 
-}  // namespace
+}  // namespace inputs_test
 }  // namespace lagomorph::apps

@@ -8,7 +8,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace lock_test {
 
 using Kind = RunLock::Kind;
 
@@ -46,5 +46,5 @@ TEST(RunLock, LeavesNoFile) {
   EXPECT_TRUE(std::filesystem::is_empty(dir.path()));
 }
 
-}  // namespace
+}  // namespace lock_test
 }  // namespace lagomorph::apps

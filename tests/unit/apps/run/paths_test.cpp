@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::apps {
-namespace {
+namespace paths_test {
 
 TEST(RunPaths, AreThoseOfTheContract) {
   const RunPaths paths("out/x");
@@ -29,5 +29,5 @@ TEST(RunPaths, FramesOfNames) {
   }
 }
 
-}  // namespace
+}  // namespace paths_test
 }  // namespace lagomorph::apps

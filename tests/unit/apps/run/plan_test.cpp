@@ -11,7 +11,7 @@
 #include "tests/unit/apps/run/run_fixture.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace plan_test {
 
 namespace fs = std::filesystem;
 
@@ -75,5 +75,5 @@ TEST(WantedFrames, AreAllOrThoseAsked) {
   }
 }
 
-}  // namespace
+}  // namespace plan_test
 }  // namespace lagomorph::apps

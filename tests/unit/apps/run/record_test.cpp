@@ -10,7 +10,7 @@
 #include "tests/unit/apps/run/run_fixture.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace record_test {
 
 TEST(Record, ReadsBackWhatWasWritten) {
   const tests::TemporaryDirectory dir;
@@ -80,5 +80,5 @@ TEST(Record, WhatIsNoRecordIsLeftOut) {
   EXPECT_TRUE(records.contains(3));
 }
 
-}  // namespace
+}  // namespace record_test
 }  // namespace lagomorph::apps

@@ -11,7 +11,7 @@
 #include "apps/npy.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace state_file_test {
 
 /// Two vertices; every number tells where it stands.
 sim::State some_state(int older_levels) {
@@ -91,5 +91,5 @@ TEST(StateFile, RefusesOtherArrays) {
   }
 }
 
-}  // namespace
+}  // namespace state_file_test
 }  // namespace lagomorph::apps

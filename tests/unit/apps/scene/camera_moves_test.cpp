@@ -9,7 +9,7 @@
 #include "render/camera.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace camera_moves_test {
 
 const std::string body = "\n[[body]]\nmesh = \"a.msh\"\n";
 
@@ -195,5 +195,5 @@ TEST(CameraMoves, WrongKeysAreTold) {
             "a.toml:8:1: in frame 2 camera.position and camera.look_at are the same point");
 }
 
-}  // namespace
+}  // namespace camera_moves_test
 }  // namespace lagomorph::apps

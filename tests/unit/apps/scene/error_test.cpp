@@ -13,7 +13,7 @@
 #include "sim/materials/table.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace error_test {
 
 std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
@@ -315,5 +315,5 @@ TEST(WrongScene, ThatCannotBeReadIsTold) {
   }
 }
 
-}  // namespace
+}  // namespace error_test
 }  // namespace lagomorph::apps

@@ -5,7 +5,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace find_scene_test {
 
 TEST(AssetDirectory, OfAnInstalledProgram) {
   const tests::TemporaryDirectory directory;
@@ -32,5 +32,5 @@ TEST(FindScene, TakesAFileAsGiven) {
   EXPECT_EQ(find_scene("no_such_scene"), "no_such_scene");
 }
 
-}  // namespace
+}  // namespace find_scene_test
 }  // namespace lagomorph::apps

@@ -8,7 +8,7 @@
 #include "apps/scene/scene.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace fuzz_test {
 
 const char text[] = R"(# A scene with something of everything.
 name = "all"
@@ -143,5 +143,5 @@ TEST(SceneFuzz, DeepNestingIsAnError) {
   expect_scene_or_error("[" + path + "]");
 }
 
-}  // namespace
+}  // namespace fuzz_test
 }  // namespace lagomorph::apps

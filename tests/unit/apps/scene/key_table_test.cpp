@@ -8,7 +8,7 @@
 #include "tests/support/paths.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace key_table_test {
 
 TEST(KeyTable, HasARowAKey) {
   const std::string table = scene_key_table_markdown();
@@ -39,5 +39,5 @@ TEST(KeyTable, StandsInTheReadme) {
       << "paste what `lagomorph info --keys` prints between the markers";
 }
 
-}  // namespace
+}  // namespace key_table_test
 }  // namespace lagomorph::apps

@@ -10,7 +10,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace resolved_test {
 
 std::string value_of(const std::vector<ResolvedKey>& keys, const std::string& key) {
   const auto found =
@@ -152,5 +152,5 @@ TEST_F(Resolved, FilesThatAreNotThereAreToldWithTheirPlace) {
             ":2:8: body.0.mesh = 'b.node' needs 'b.ele' beside it: there is no such file");
 }
 
-}  // namespace
+}  // namespace resolved_test
 }  // namespace lagomorph::apps

@@ -6,7 +6,7 @@
 #include "apps/scene/scene.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace set_test {
 
 const std::string text = R"(
 [time]
@@ -106,5 +106,5 @@ bottom = 1
   EXPECT_EQ(pin.bottom, 1.0);
 }
 
-}  // namespace
+}  // namespace set_test
 }  // namespace lagomorph::apps

@@ -15,7 +15,7 @@
 #include "apps/scene/scene.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace write_test {
 
 /// Fills every key with a random valid value.
 class RandomFill : public KeyVisitor {
@@ -295,5 +295,5 @@ TEST(SceneToToml, KeepsFloatsOfEachSize) {
   }
 }
 
-}  // namespace
+}  // namespace write_test
 }  // namespace lagomorph::apps

@@ -10,7 +10,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace process_test {
 
 const auto never = [] { return false; };
 
@@ -52,5 +52,5 @@ TEST(Process, ShellTextIsWhatAShellTakes) {
   EXPECT_EQ(shell_text({""}), "''");
 }
 
-}  // namespace
+}  // namespace process_test
 }  // namespace lagomorph::apps

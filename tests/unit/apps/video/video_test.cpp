@@ -21,7 +21,7 @@
 #include "tests/support/temporary_directory.h"
 
 namespace lagomorph::apps {
-namespace {
+namespace video_test {
 
 namespace fs = std::filesystem;
 const auto never = [] { return false; };
@@ -226,5 +226,5 @@ TEST(Video, StopsWhenAsked) {
   EXPECT_EQ(tests::count_files(dir.path()), 0);
 }
 
-}  // namespace
+}  // namespace video_test
 }  // namespace lagomorph::apps

@@ -5,7 +5,7 @@
 #include "tests/support/pictures.h"
 
 namespace lagomorph::render {
-namespace {
+namespace bias_test {
 
 using tests::bytes_of;
 
@@ -66,5 +66,5 @@ TEST(Bias, OfSixteenBitsAndAlpha) {
   EXPECT_EQ(bias_figures(tile_bias(a, b)).mean, 1);
 }
 
-}  // namespace
+}  // namespace bias_test
 }  // namespace lagomorph::render

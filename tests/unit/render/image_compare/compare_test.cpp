@@ -11,7 +11,7 @@
 #include "tests/support/pictures.h"
 
 namespace lagomorph::render {
-namespace {
+namespace compare_test {
 
 using tests::bytes_of;
 using tests::grainy;
@@ -90,5 +90,5 @@ TEST(Compare, RefusesOtherSizesAndDistances) {
   EXPECT_THROW(compare_pictures(grainy(5, 5, 1), grainy(5, 5, 1), 0), SettingsError);
 }
 
-}  // namespace
+}  // namespace compare_test
 }  // namespace lagomorph::render

@@ -9,7 +9,7 @@
 #include "tests/support/pictures.h"
 
 namespace lagomorph::render {
-namespace {
+namespace differences_test {
 
 using tests::bytes_of;
 using tests::grainy;
@@ -86,5 +86,5 @@ TEST(Differences, AlphaIsApart) {
   EXPECT_EQ(alpha_map(clear, clear).values, (std::vector<float>{0.0F, 0.0F}));
 }
 
-}  // namespace
+}  // namespace differences_test
 }  // namespace lagomorph::render

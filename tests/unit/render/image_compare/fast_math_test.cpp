@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::render {
-namespace {
+namespace fast_math_test {
 
 TEST(FastMath, CubeRoot) {
   for (float x = 1e-6F; x < 1e6F; x *= 1.0003F) {
@@ -33,5 +33,5 @@ TEST(FastMath, PowerOfTwo) {
   EXPECT_EQ(fast_exp2(-3.0F), 0.125F);
 }
 
-}  // namespace
+}  // namespace fast_math_test
 }  // namespace lagomorph::render

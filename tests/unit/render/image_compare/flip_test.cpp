@@ -18,7 +18,7 @@
 #include "tests/support/slow_flip.h"
 
 namespace lagomorph::render {
-namespace {
+namespace flip_test {
 
 using tests::bytes_of;
 using tests::grainy;
@@ -198,5 +198,5 @@ TEST(FlipColor, WhiteBlackAndTheLargestDistance) {
   EXPECT_EQ(flip::color_difference({5, 6, 7}, {5, 6, 7}), 0);
 }
 
-}  // namespace
+}  // namespace flip_test
 }  // namespace lagomorph::render

@@ -13,7 +13,7 @@
 
 /// The cases that tell a gate's worth: what nobody sees passes, what one looks for fails.
 namespace lagomorph::render {
-namespace {
+namespace gate_test {
 
 using tests::bytes_of;
 using tests::flip_picture;
@@ -128,5 +128,5 @@ TEST(Gate, KindsOfHeadersAndOfPixelsAgree) {
   EXPECT_TRUE(gate_kinds(kind_of(read_png_header(bytes, "a")), kind_of(read_png(bytes, "a"))).empty());
 }
 
-}  // namespace
+}  // namespace gate_test
 }  // namespace lagomorph::render

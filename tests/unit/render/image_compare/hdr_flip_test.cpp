@@ -13,7 +13,7 @@
 #include "tests/support/slow_flip.h"
 
 namespace lagomorph::render {
-namespace {
+namespace hdr_flip_test {
 
 /// Light of many magnitudes, smooth with some grain.
 FloatPicture lights(int width, int height, std::uint32_t seed) {
@@ -123,5 +123,5 @@ TEST(HdrFlip, OtherSizesAreRefused) {
   EXPECT_THROW(hdr_flip(lights(4, 3, 1), lights(3, 4, 1)), SettingsError);
 }
 
-}  // namespace
+}  // namespace hdr_flip_test
 }  // namespace lagomorph::render

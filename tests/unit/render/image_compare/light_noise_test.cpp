@@ -8,7 +8,7 @@
 #include "render/image_compare/student_t.h"
 
 namespace lagomorph::render {
-namespace {
+namespace light_noise_test {
 
 /// 4 x 2 cells of a picture of 30 x 16 pixels, all alike.
 LightStatistics statistics(float mean, float variance, float batches = 16, float samples = 16) {
@@ -91,5 +91,5 @@ TEST(LightNoise, OneSampleIsOfNoUse) {
   EXPECT_FALSE(statistics(std::numeric_limits<float>::infinity(), 0).usable());
 }
 
-}  // namespace
+}  // namespace light_noise_test
 }  // namespace lagomorph::render

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::render {
-namespace {
+namespace magma_test {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
@@ -38,5 +38,5 @@ TEST(Magma, PictureOfAMap) {
   EXPECT_EQ(picture.rgb, (std::vector<std::uint8_t>{0, 0, 4, 252, 253, 191}));
 }
 
-}  // namespace
+}  // namespace magma_test
 }  // namespace lagomorph::render

@@ -9,7 +9,7 @@
 #include <tbb/global_control.h>
 
 namespace lagomorph::render {
-namespace {
+namespace pooling_test {
 
 ErrorMap noise_map(int width, int height, std::uint32_t seed) {
   ErrorMap map{width, height, {}};
@@ -109,5 +109,5 @@ TEST(Pooling, TheSameBitsForEveryNumberOfThreads) {
   for (int i = 0; i < 20; ++i) ASSERT_EQ(mean(map), one);
 }
 
-}  // namespace
+}  // namespace pooling_test
 }  // namespace lagomorph::render

@@ -12,7 +12,7 @@
 
 /// Every pair of tests/data/flip against its reference figures, within the tolerances of the README there.
 namespace lagomorph::render {
-namespace {
+namespace reference_test {
 
 struct Case : std::map<std::string, std::string> {};
 void PrintTo(const Case& c, std::ostream* out) { *out << c.at("case"); }
@@ -84,5 +84,5 @@ TEST_P(Reference, StructuralSimilarity) {
 INSTANTIATE_TEST_SUITE_P(Pairs, Reference, ::testing::ValuesIn(cases()),
                          [](const auto& info) { return info.param.at("case"); });
 
-}  // namespace
+}  // namespace reference_test
 }  // namespace lagomorph::render

@@ -11,7 +11,7 @@
 #include "tests/support/pictures.h"
 
 namespace lagomorph::render {
-namespace {
+namespace ssim_test {
 
 using tests::bytes_of;
 using tests::grainy;
@@ -112,5 +112,5 @@ TEST(Ssim, SixteenBitsAndAlphaChangeNothing) {
   EXPECT_EQ(ssim(with_alpha, b).value(), ssim(a, b).value());
 }
 
-}  // namespace
+}  // namespace ssim_test
 }  // namespace lagomorph::render

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::render {
-namespace {
+namespace student_t_test {
 
 void expect_relative(double value, double expected, double tolerance, const char* what) {
   EXPECT_NEAR(value / expected, 1.0, tolerance) << what << ": " << value << ", not " << expected;
@@ -43,5 +43,5 @@ TEST(StudentT, HasItsEnds) {
   EXPECT_LT(two_sided_p(500, 30), 1e-50);
 }
 
-}  // namespace
+}  // namespace student_t_test
 }  // namespace lagomorph::render

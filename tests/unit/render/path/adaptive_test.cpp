@@ -10,7 +10,7 @@
 #include "tests/unit/render/path/shapes.h"
 
 namespace lagomorph::render::path {
-namespace {
+namespace adaptive_test {
 
 /// A sphere on the ground under a wide light: even sky above, noise in the penumbra.
 RenderScene scene_of_test() {
@@ -127,5 +127,5 @@ TEST(Adaptive, WhatCannotBeIsTold) {
   EXPECT_THROW(make_path_renderer(s, 1), SettingsError);
 }
 
-}  // namespace
+}  // namespace adaptive_test
 }  // namespace lagomorph::render::path

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::render::path {
-namespace {
+namespace brdf_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -268,5 +268,5 @@ TEST(Brdf, FramesAreRightHanded) {
   }
 }
 
-}  // namespace
+}  // namespace brdf_test
 }  // namespace lagomorph::render::path

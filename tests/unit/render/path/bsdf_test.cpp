@@ -9,7 +9,7 @@
 #include "tests/unit/render/path/directions.h"
 
 namespace lagomorph::render::path {
-namespace {
+namespace bsdf_test {
 
 Material white(float roughness = 0.5F) {
   Material m;
@@ -174,5 +174,5 @@ TEST(Bsdf, SheenIsBrightestAlongTheSilhouette) {
   EXPECT_EQ(f.z(), 0.0F);
 }
 
-}  // namespace
+}  // namespace bsdf_test
 }  // namespace lagomorph::render::path

@@ -9,7 +9,7 @@
 #include "tests/unit/render/path/directions.h"
 
 namespace lagomorph::render::path {
-namespace {
+namespace dielectric_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -184,5 +184,5 @@ TEST(Dielectric, ASmoothOneBendsBySnell) {
   }
 }
 
-}  // namespace
+}  // namespace dielectric_test
 }  // namespace lagomorph::render::path

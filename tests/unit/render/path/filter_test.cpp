@@ -10,7 +10,7 @@
 #include "render/error.h"
 
 namespace lagomorph::render::path {
-namespace {
+namespace filter_test {
 
 const std::pair<const char*, std::function<double(double)>> filters[] = {
     {"box", [](double) { return 1.0; }},
@@ -72,5 +72,5 @@ TEST(Filter, ErrorsNameTheValue) {
   }
 }
 
-}  // namespace
+}  // namespace filter_test
 }  // namespace lagomorph::render::path

@@ -10,7 +10,7 @@
 #include "tests/unit/render/path/shapes.h"
 
 namespace lagomorph::render {
-namespace {
+namespace inside_test {
 
 using path::scattering_albedo;
 
@@ -263,5 +263,5 @@ TEST(InsideOfBodies, AnyNumberOfThreadsDrawsTheSame) {
   }
 }
 
-}  // namespace
+}  // namespace inside_test
 }  // namespace lagomorph::render

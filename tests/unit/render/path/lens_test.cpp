@@ -10,7 +10,7 @@
 #include "tests/unit/render/path/shapes.h"
 
 namespace lagomorph::render::path {
-namespace {
+namespace lens_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -137,5 +137,5 @@ TEST(Lens, WhatIsInFocusStaysSharpAndNoLightIsLost) {
   EXPECT_NEAR(spot_of(focused(1.0F, 4.0F), 3.0F).light, spot_of(pinhole, 3.0F).light, 0.01 * sharp.light);
 }
 
-}  // namespace
+}  // namespace lens_test
 }  // namespace lagomorph::render::path

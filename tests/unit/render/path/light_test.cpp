@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::render::path {
-namespace {
+namespace light_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -124,5 +124,5 @@ TEST(RectangleLight, ShinesFromOneSideOnly) {
   EXPECT_EQ(light.intersect({Vec3(0.0F, 0.0F, 0.0F), Vec3(0, -1, 0)}).distance, 0.0F);
 }
 
-}  // namespace
+}  // namespace light_test
 }  // namespace lagomorph::render::path

@@ -8,7 +8,7 @@
 #include "tests/unit/render/path/shapes.h"
 
 namespace lagomorph::render {
-namespace {
+namespace motion_blur_test {
 
 constexpr int width = 80, height = 8;
 constexpr float span = 4.0F;  // width of the view [m]
@@ -160,5 +160,5 @@ TEST(MotionBlur, SameBitsForAnyThreadsAndWhateverWasDrawnBefore) {
   EXPECT_EQ(draw(*four, 3), third);
 }
 
-}  // namespace
+}  // namespace motion_blur_test
 }  // namespace lagomorph::render

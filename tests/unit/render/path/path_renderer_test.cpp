@@ -11,7 +11,7 @@
 #include "tests/unit/render/path/shapes.h"
 
 namespace lagomorph::render {
-namespace {
+namespace path_renderer_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -570,5 +570,5 @@ TEST(PathRenderer, TellsWhatItsBitsDependOn) {
   EXPECT_EQ(renderer->description(), before);
 }
 
-}  // namespace
+}  // namespace path_renderer_test
 }  // namespace lagomorph::render

@@ -9,7 +9,7 @@
 #include "tests/unit/render/path/shapes.h"
 
 namespace lagomorph::render::path {
-namespace {
+namespace ray_caster_test {
 
 std::vector<Ray> random_rays(int count, unsigned seed) {
   std::mt19937 random(seed);
@@ -136,5 +136,5 @@ TEST(RayCaster, NothingToMeet) {
   EXPECT_NE(geometry.caster().description().find("isa="), std::string::npos);
 }
 
-}  // namespace
+}  // namespace ray_caster_test
 }  // namespace lagomorph::render::path

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::render::path {
-namespace {
+namespace sampler_test {
 
 TEST(Sampler, SecondDimensionMeetsItsDirectionNumbers) {
   // Joe and Kuo's second dimension: the polynomial x + 1, v_i = v_{i-1} ^ (v_{i-1} >> 1).
@@ -114,5 +114,5 @@ TEST(Sampler, NumbersAreBelowOne) {
   }
 }
 
-}  // namespace
+}  // namespace sampler_test
 }  // namespace lagomorph::render::path

@@ -8,7 +8,7 @@
 #include "tests/unit/render/path/shapes.h"
 
 namespace lagomorph::render::path {
-namespace {
+namespace scene_geometry_test {
 
 /// The surface that a ray meets; there is one.
 SurfacePoint surface(const SceneGeometry& geometry, const Ray& ray) {
@@ -166,5 +166,5 @@ TEST(SceneGeometry, ABodyOnTheGroundSeesNothingThroughIt) {
   EXPECT_EQ(geometry.meet_ground({p.origin, Vec3(0, -1, 0)}), 0.0);
 }
 
-}  // namespace
+}  // namespace scene_geometry_test
 }  // namespace lagomorph::render::path

@@ -10,7 +10,7 @@
 #include "tests/unit/render/path/shapes.h"
 
 namespace lagomorph::render::path {
-namespace {
+namespace sky_sampler_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -141,5 +141,5 @@ TEST(SkySampler, AFloorIsLitByTheMapsIrradiance) {
   }
 }
 
-}  // namespace
+}  // namespace sky_sampler_test
 }  // namespace lagomorph::render::path

@@ -10,7 +10,7 @@
 #include "tests/unit/render/path/shapes.h"
 
 namespace lagomorph::render::path {
-namespace {
+namespace sun_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -161,5 +161,5 @@ TEST(SunLight, TheCameraSeesAVisibleOneWhereThereIsNoBackground) {
   EXPECT_EQ(middle(), 0.25F);
 }
 
-}  // namespace
+}  // namespace sun_test
 }  // namespace lagomorph::render::path

@@ -10,7 +10,7 @@
 
 /// The channel tile_statistics, and what a test by it makes of seeds and of other light.
 namespace lagomorph::render {
-namespace {
+namespace tile_statistics_test {
 
 RenderSettings settings(int width, int height, int samples, std::uint32_t seed = 0) {
   RenderSettings s;
@@ -159,5 +159,5 @@ TEST(TileStatistics, OnlyThePathTracerHasThem) {
   }
 }
 
-}  // namespace
+}  // namespace tile_statistics_test
 }  // namespace lagomorph::render

@@ -8,7 +8,7 @@
 #include "tests/unit/render/raster/shapes.h"
 
 namespace lagomorph::render::raster {
-namespace {
+namespace depth_test {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -177,5 +177,5 @@ TEST(RasterDepth, TheGroundIsADiscAndASurface) {
   }
 }
 
-}  // namespace
+}  // namespace depth_test
 }  // namespace lagomorph::render::raster

@@ -9,7 +9,7 @@
 #include "render/raster/gl_context.h"
 
 namespace lagomorph::render::raster {
-namespace {
+namespace gl_objects_test {
 
 int version() {
   GLint major = 0;
@@ -109,5 +109,5 @@ TEST(CheckGl, TellsAndForgetsAnError) {
   EXPECT_NO_THROW(check_gl("trying"));
 }
 
-}  // namespace
+}  // namespace gl_objects_test
 }  // namespace lagomorph::render::raster

@@ -9,7 +9,7 @@
 #include "tests/unit/render/raster/shapes.h"
 
 namespace lagomorph::render::raster {
-namespace {
+namespace light_view_test {
 
 AreaLight some_light() {
   AreaLight light;
@@ -109,5 +109,5 @@ TEST(LightView, ALowLightShadowsAllTheGround) {
   EXPECT_EQ(none, Vec4::Zero().eval());
 }
 
-}  // namespace
+}  // namespace light_view_test
 }  // namespace lagomorph::render::raster

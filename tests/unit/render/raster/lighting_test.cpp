@@ -9,7 +9,7 @@
 #include "tests/unit/render/raster/shapes.h"
 
 namespace lagomorph::render::raster {
-namespace {
+namespace lighting_test {
 
 /// Looks straight down at the origin from 3 m, +x to the right, -z up.
 CameraSettings from_above() {
@@ -279,5 +279,5 @@ TEST(RasterLight, AVisibleLightIsSeenFromItsFrontOnly) {
   EXPECT_EQ(color_at(draw(scene, camera, small_settings()), 48, 32)[0], 0.0F);
 }
 
-}  // namespace
+}  // namespace lighting_test
 }  // namespace lagomorph::render::raster

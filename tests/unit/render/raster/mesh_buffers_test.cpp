@@ -7,7 +7,7 @@
 #include "tests/unit/render/raster/shapes.h"
 
 namespace lagomorph::render::raster {
-namespace {
+namespace mesh_buffers_test {
 
 TEST(IsClosed, KnowsAnInside) {
   EXPECT_TRUE(is_closed(sphere(Vec3(5.0F, 0.0F, 0.0F), 1.0F, 8).triangles,
@@ -33,5 +33,5 @@ TEST(IsClosed, NotWithAHoleATurnedTriangleOrInsideOut) {
   EXPECT_FALSE(is_closed({}, {}));
 }
 
-}  // namespace
+}  // namespace mesh_buffers_test
 }  // namespace lagomorph::render::raster

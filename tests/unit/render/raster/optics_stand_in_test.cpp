@@ -5,7 +5,7 @@
 #include "render/renderer.h"
 
 namespace lagomorph::render::raster {
-namespace {
+namespace optics_stand_in_test {
 
 TEST(OpticsStandIn, APlainMaterialIsItself) {
   const Material m{Color(0.1F, 0.3F, 0.34F), 0.4F, 0.2F, 1.4F};
@@ -70,5 +70,5 @@ TEST(RendererRemarks, SayThatLightIsCut) {
   EXPECT_TRUE(renderer_remarks(settings, {}, {}).empty());
 }
 
-}  // namespace
+}  // namespace optics_stand_in_test
 }  // namespace lagomorph::render::raster

@@ -16,7 +16,7 @@
 #include "tests/unit/render/raster/shapes.h"
 
 namespace lagomorph::render::raster {
-namespace {
+namespace raster_renderer_test {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -334,5 +334,5 @@ TEST(RasterRenderer, RefusesWhatDoesNotFitTheScene) {
   expect_error("triangle 0", [&] { renderer->set_scene(scene); });
 }
 
-}  // namespace
+}  // namespace raster_renderer_test
 }  // namespace lagomorph::render::raster

@@ -6,7 +6,7 @@
 #include "tests/unit/render/raster/shapes.h"
 
 namespace lagomorph::render::raster {
-namespace {
+namespace shadow_test {
 
 CameraSettings from_above() {
   CameraSettings camera;
@@ -155,5 +155,5 @@ TEST(RasterShadow, TheSkyIsDimmedUnderABody) {
   }
 }
 
-}  // namespace
+}  // namespace shadow_test
 }  // namespace lagomorph::render::raster

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::render::raster {
-namespace {
+namespace sky_model_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -107,5 +107,5 @@ TEST(SkyModel, DirectionsShareTheHemisphere) {
   EXPECT_NEAR((mean - Vec3(0.0F, 0.5F, 0.0F)).norm(), 0.0F, 0.06F);  // the centroid of a hemisphere
 }
 
-}  // namespace
+}  // namespace sky_model_test
 }  // namespace lagomorph::render::raster

@@ -7,7 +7,7 @@
 #include "tests/unit/render/raster/shapes.h"
 
 namespace lagomorph::render::raster {
-namespace {
+namespace view_range_test {
 
 CameraSettings from_the_front() {
   CameraSettings camera;
@@ -66,5 +66,5 @@ TEST(SeenRectangle, IsAllOrNothingAtTheExtremes) {
   EXPECT_EQ(seen_rectangle(camera, {}, empty_scene()).width, 0);
 }
 
-}  // namespace
+}  // namespace view_range_test
 }  // namespace lagomorph::render::raster

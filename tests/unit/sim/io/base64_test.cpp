@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace lagomorph::sim::io {
-namespace {
+namespace base64_test {
 
 TEST(Base64, EncodesTheVectorsOfRfc4648) {
   const std::string bytes = "foobar";
@@ -34,5 +34,5 @@ TEST(Base64, RefusesWhatIsNone) {
   }
 }
 
-}  // namespace
+}  // namespace base64_test
 }  // namespace lagomorph::sim::io

@@ -9,7 +9,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace damaged_files_test {
 
 struct Damaged {
   std::string name;   // of the file that is damaged
@@ -114,5 +114,5 @@ INSTANTIATE_TEST_SUITE_P(Formats, DamagedFiles, testing::ValuesIn(small_files())
   return name;
 });
 
-}  // namespace
+}  // namespace damaged_files_test
 }  // namespace lagomorph::sim

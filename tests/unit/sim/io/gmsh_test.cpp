@@ -7,7 +7,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace gmsh_test {
 
 const std::string kNodes = "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n";
 const std::string kTet22 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + kNodes +
@@ -195,5 +195,5 @@ TEST(Gmsh, ATetThatIsThereOnceForEachOfItsGroupsIsToldAsOverlap) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace gmsh_test
 }  // namespace lagomorph::sim

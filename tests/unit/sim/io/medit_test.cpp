@@ -3,7 +3,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace medit_test {
 
 const std::string kTet =
     "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\nTetrahedra\n1\n1 "
@@ -82,5 +82,5 @@ TEST(Medit, SectionsThatAreSkippedAreCountedToo) {
             "a.mesh:16: expected an entry of Triangles (a number), found 'End'");
 }
 
-}  // namespace
+}  // namespace medit_test
 }  // namespace lagomorph::sim

@@ -5,7 +5,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace surface_formats_test {
 
 using Triangles = std::vector<Triangle>;
 
@@ -234,5 +234,5 @@ TEST(Stl, WhatIsWrongIsToldWithItsPlace) {
   EXPECT_EQ(tri_error("a.stl", nan), "a.stl: byte 96: a vertex coordinate is nan; it must be finite");
 }
 
-}  // namespace
+}  // namespace surface_formats_test
 }  // namespace lagomorph::sim

@@ -3,7 +3,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace tetgen_test {
 
 const std::string kNode = "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";
 const std::string kEle = "1 4 1\n0 0 1 2 3 7\n";
@@ -85,5 +85,5 @@ TEST(TetGen, AMissingPartnerIsTold) {
             "a.node: needs " + (folder.path() / "a.ele").string() + " beside it, which does not exist");
 }
 
-}  // namespace
+}  // namespace tetgen_test
 }  // namespace lagomorph::sim

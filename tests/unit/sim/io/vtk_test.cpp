@@ -3,7 +3,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace vtk_test {
 
 const std::string kTet =
     "# vtk DataFile Version 2.0\na title\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0\n0 1 "
@@ -83,5 +83,5 @@ TEST(Vtk, ErrorsInBinaryFilesTellTheByte) {
   EXPECT_EQ(tet_error("a.vtk", bytes), "a.vtk: byte 77: a coordinate is nan; it must be finite");
 }
 
-}  // namespace
+}  // namespace vtk_test
 }  // namespace lagomorph::sim

@@ -4,7 +4,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace vtu_test {
 
 const std::string kPiece =
     "<Piece NumberOfPoints=\"4\" NumberOfCells=\"2\">\n<PointData/>\n<CellData Scalars=\"tag\">\n"
@@ -131,5 +131,5 @@ TEST(Vtu, AppendedDataNeedTheirUnderscoreAndOffset) {
             "a.vtu:23: AppendedData has no data; an underscore begins them");
 }
 
-}  // namespace
+}  // namespace vtu_test
 }  // namespace lagomorph::sim

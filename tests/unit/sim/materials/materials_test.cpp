@@ -15,7 +15,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace materials_test {
 
 constexpr double kYoung = 1e6, kPoisson = 0.3;
 
@@ -250,5 +250,5 @@ TEST(Determinant, HasTheCofactorAsDerivative) {
   expect_second_order([&](double t) { return determinant(F + t * dF); }, cofactor(F).cwiseProduct(dF).sum());
 }
 
-}  // namespace
+}  // namespace materials_test
 }  // namespace lagomorph::sim

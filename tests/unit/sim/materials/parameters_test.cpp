@@ -15,7 +15,7 @@
 
 /// From what a scene says to a material's constants.
 namespace lagomorph::sim {
-namespace {
+namespace parameters_test {
 
 constexpr double kYoung = 1e6, kPoisson = 0.3;
 
@@ -172,5 +172,5 @@ TEST(Fibre, AddsItsStiffnessAlongItselfInTensionAndIsSlackInCompression) {
   EXPECT_EQ(fibre.d2psi_dF2(Vec3(2, 0.9, 2).asDiagonal()).norm(), 0.0);
 }
 
-}  // namespace
+}  // namespace parameters_test
 }  // namespace lagomorph::sim

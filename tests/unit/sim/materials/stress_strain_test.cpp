@@ -9,7 +9,7 @@
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
-namespace {
+namespace stress_strain_test {
 
 MaterialSettings measured(double poisson) {
   MaterialSettings s;
@@ -138,5 +138,5 @@ TEST(StressStrain, TellsWhatIsWrong) {
             "here: stress_strain takes data, poisson and young, and no other constants");
 }
 
-}  // namespace
+}  // namespace stress_strain_test
 }  // namespace lagomorph::sim

@@ -14,7 +14,7 @@
 /// Natural frequencies: those of the generalized eigenproblem K φ = ω² M φ against the closed forms of bars
 /// and beams, and those of the simulated motion against the eigenproblem.
 namespace lagomorph::sim {
-namespace {
+namespace frequencies_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kYoung = 1e6, kDensity = 1000.0;
@@ -117,5 +117,5 @@ TEST(Frequencies, OfTheMotionAreThoseOfTheEigenproblem) {
   }
 }
 
-}  // namespace
+}  // namespace frequencies_test
 }  // namespace lagomorph::sim

@@ -15,7 +15,7 @@
 
 /// A cube between sliding plates, one drawn apart: its sides and its force in closed form, whatever its mesh.
 namespace lagomorph::sim {
-namespace {
+namespace homogeneous_test {
 
 struct Case {
   std::string element, truth_model;
@@ -223,5 +223,5 @@ TEST_P(StretchedBy, MeetsTheClosedForm) {
   tell_of(element, principal.model, met);
 }
 
-}  // namespace
+}  // namespace homogeneous_test
 }  // namespace lagomorph::sim

@@ -11,7 +11,7 @@
 
 /// A slender cantilever that sags by next to nothing goes, refined, to beam theory.
 namespace lagomorph::sim {
-namespace {
+namespace sag_test {
 
 struct Element {
   const char* name;
@@ -61,5 +61,5 @@ TEST_P(Sag, ConvergesToTimoshenko) {
   EXPECT_LT(std::abs(errors[2]), std::abs(errors[0]));
 }
 
-}  // namespace
+}  // namespace sag_test
 }  // namespace lagomorph::sim
