@@ -155,8 +155,7 @@ std::string moves_text(const CameraDesc& c) {
   if (c.view != "none") text.append("; view ").append(c.view);
   if (c.frame != "none") text.append("; aimed at the bodies' box: ").append(c.frame);
   if (c.follow != "none") text += "; follows the centre of mass";
-  if (c.turntable.turns) text += fmt::format("; {} turns", *c.turntable.turns);
-  if (c.turntable.period) text += fmt::format("; a turn in {} s", *c.turntable.period);
+  if (c.turntable.turns || c.turntable.period) text += "; on a turntable";
   if (!c.key.empty()) text += fmt::format("; {} keys", c.key.size());
   return text;
 }

@@ -84,7 +84,10 @@ FrameRange frames_to_draw(const Options& options, const SceneDesc& scene, const 
   FrameRange frames = options.frames ? wanted_frames(options.frames, scene.time.frames) : states.all();
   frames.every = options.every;
   // Motion begins at the frame before.
-  states.require({draws_motion(scene) ? std::max(frames.first - 1, 0) : frames.first, frames.last});
+  const int before = draws_motion(scene) ? 1 : 0;
+  const int at_once = frames.every == 1 ? frames.last - frames.first : 0;
+  for (int frame = frames.first; frame <= frames.last; frame += at_once + frames.every)
+    states.require({std::max(frame - before, 0), frame + at_once});
   return frames;
 }
 

@@ -35,6 +35,11 @@ TEST_F(Drafts, EveryOtherPicture) {
   expect(0, render("r", {"--every", "3"}));
   EXPECT_TRUE(fs::exists(picture("r", 0)));
   EXPECT_FALSE(fs::exists(picture("r", 2)));
+  expect(0, simulate("gap"));
+  fs::remove(at("gap") / "states/frame_0001.npy");
+  expect(0, render("gap", {"--every", "2", "--frames", "0..3", "-o", at("over").string()}));
+  EXPECT_EQ(read_all(picture("over", 2)), read_all(picture("whole", 2))) << "whose states are there";
+  expect(2, render("gap", {"--every", "1", "--frames", "0..3", "-o", at("other").string()}));
   expect(0, run("r"));
   expect_same_run(at("whole"), at("r"));
 }

@@ -149,11 +149,12 @@ void settle_views(SceneDesc& s, RandomFill& random) {
   c.up = position.cross(look_at).normalized().cast<float>();
   s.layout = {.columns = random.below(3), .gap = random.below(5)};
   if (!s.panel.empty()) s.render.width = s.render.height = 500 + random.below(99);
+  const bool front = random.below(2) == 0;
+  if (front && !s.panel.empty()) c.up = render::CameraSettings().up;
   for (std::size_t i = 0; i < s.panel.size(); ++i) {
     PanelDesc& p = s.panel[i];
     p.title = "{frame} \u00e9 " + std::to_string(i);
-    p.view = i % 2 == 0 ? "same" : "front";
-    if (p.view == "front") c.up = render::CameraSettings().up;
+    p.view = front ? "front" : "same";
     p.position.reset(), p.look_at.reset(), p.up.reset();
     p.range.reset();
     p.colormap = "same";
