@@ -41,13 +41,13 @@ private:
 };
 
 /// One of a file's channels: a value a pixel, `stride` floats from one to the next.
-struct Plane {
+struct ExrPlane {
   std::string name;
   const float* values;
   std::size_t stride;
 };
 
-void add_planes(const Channel& channel, std::vector<Plane>& planes) {
+void add_planes(const Channel& channel, std::vector<ExrPlane>& planes) {
   const ChannelKind& kind = channel_kind(channel.name);
   for (std::size_t i = 0; i < static_cast<std::size_t>(kind.components); ++i) {
     std::string name(1, kind.parts[i]);
@@ -56,12 +56,12 @@ void add_planes(const Channel& channel, std::vector<Plane>& planes) {
   }
 }
 
-std::string encode(int width, int height, const std::vector<Plane>& planes) {
+std::string encode(int width, int height, const std::vector<ExrPlane>& planes) {
   Imf::Header header(width, height);
   header.compression() = Imf::ZIP_COMPRESSION;
   Imf::addChromaticities(header, {});  // Rec. 709
   Imf::FrameBuffer pixels;
-  for (const Plane& plane : planes) {
+  for (const ExrPlane& plane : planes) {
     header.channels().insert(plane.name, Imf::Channel(Imf::FLOAT));
     // The library writes from what it takes as not const.
     char* base = reinterpret_cast<char*>(const_cast<float*>(plane.values));
@@ -85,14 +85,14 @@ const Channel& wanted(const Image& image, const std::string& name) {
 }  // namespace
 
 std::string encode_exr(const Channel& channel) {
-  std::vector<Plane> planes;
+  std::vector<ExrPlane> planes;
   add_planes(channel, planes);
   return encode(channel.width, channel.height, planes);
 }
 
 std::string encode_multilayer_exr(const Image& image, std::span<const std::string> channels,
                                   bool transparent) {
-  std::vector<Plane> planes;
+  std::vector<ExrPlane> planes;
   add_planes(wanted(image, color_channel), planes);
   std::vector<float> opaque;
   if (!transparent) opaque.assign(wanted(image, color_channel).values.size() / 3, 1.0F);

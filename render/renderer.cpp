@@ -8,11 +8,11 @@
 namespace lagomorph::render {
 namespace {
 
-struct Row {
+struct BackEnd {
   const char* name;
   std::unique_ptr<Renderer> (*make)(const RenderSettings&, int threads);
 };
-constexpr Row backends[] = {
+constexpr BackEnd backends[] = {
     {"raster", make_raster_renderer},
     {"path", make_path_renderer},
     {"null", make_null_renderer},
@@ -34,7 +34,7 @@ void check_range(const char* key, long value, long low, long high) {
 
 std::vector<std::string> renderer_names() {
   std::vector<std::string> names;
-  for (const Row& row : backends) names.emplace_back(row.name);
+  for (const BackEnd& row : backends) names.emplace_back(row.name);
   return names;
 }
 
@@ -46,7 +46,7 @@ std::unique_ptr<Renderer> make_renderer(const RenderSettings& settings, int thre
       throw SettingsError("render.channels: '" + channel + "' is drawn by render.backend = \"path\" only");
     }
   }
-  for (const Row& row : backends) {
+  for (const BackEnd& row : backends) {
     if (settings.backend == row.name) return row.make(settings, threads);
   }
   throw SettingsError("render.backend: unknown back end '" + settings.backend + "'; known are " +

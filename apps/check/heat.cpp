@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int gap = 4;          // columns between pictures
-constexpr int compression = 6;  // zlib
+constexpr int gap = 4;               // columns between pictures
+constexpr int heat_compression = 6;  // zlib
 
 /// Puts a picture's rows beside what is there, from column x on.
 void put(render::Picture& panel, int x, const render::Picture& picture) {
@@ -53,8 +53,8 @@ void write_heat(const fs::path& out, ComparedFrame& frame) {
   put(panel, 2 * (heat.width + gap), heat);
   make_folder(out / "heat");
   make_folder(out / "panels");
-  write_file(out / "heat" / name, render::encode_png(heat, compression));
-  write_file(out / "panels" / name, render::encode_png(panel, compression));
+  write_file(out / "heat" / name, render::encode_png(heat, heat_compression));
+  write_file(out / "panels" / name, render::encode_png(panel, heat_compression));
   frame.result.heat = "heat/" + name;
   frame.result.panel = "panels/" + name;
 }

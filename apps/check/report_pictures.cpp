@@ -25,7 +25,7 @@ constexpr std::size_t most_worst = 6;          // frames at full size
 constexpr std::size_t most_small = 40;         // further frames that differ
 constexpr std::size_t key_frames = 5;
 constexpr Size small_box = {320, 320};
-constexpr int compression = 6;  // zlib
+constexpr int kept_compression = 6;  // zlib
 
 /// A picture as a PNG that any browser shows.
 struct Kept {
@@ -50,7 +50,7 @@ std::optional<Kept> whole_picture(const fs::path& file) {
 std::optional<Kept> smaller_picture(const std::optional<Kept>& whole, Size size) {
   if (!whole) return std::nullopt;
   const render::Picture picture = opaque_picture(render::read_png(whole->bytes, ""));
-  return Kept{render::encode_png(resized(picture, size), compression), size};
+  return Kept{render::encode_png(resized(picture, size), kept_compression), size};
 }
 
 class Gathering {

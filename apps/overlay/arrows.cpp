@@ -9,7 +9,7 @@
 namespace lagomorph::apps {
 namespace {
 
-constexpr double faint = 0.22, rim_opacity = 0.65;
+constexpr double hidden_opacity = 0.22, rim_opacity = 0.65;
 constexpr double rim = 1.0;           // width around signs [pixels]
 constexpr double least_head = 5.0;    // [pixels]
 constexpr double head_width = 0.78;   // of a head's length
@@ -46,11 +46,11 @@ void draw_arrow(render::Picture& picture, const View& view, const Arrow& arrow, 
     shaft.hidden.clear();
   }
   const Point tip{b.x, b.y};
-  draw_strokes(picture, shaft.hidden, width, arrow.color, faint);
+  draw_strokes(picture, shaft.hidden, width, arrow.color, hidden_opacity);
   draw_strokes(picture, shaft.visible, width + 2.0 * rim, rim_color, rim_opacity);
   if (tip_seen) fill_convex(picture, head_corners(tip, along, head, rim), rim_color, rim_opacity);
   draw_strokes(picture, shaft.visible, width, arrow.color);
-  fill_convex(picture, head_corners(tip, along, head, 0.0), arrow.color, tip_seen ? 1.0 : faint);
+  fill_convex(picture, head_corners(tip, along, head, 0.0), arrow.color, tip_seen ? 1.0 : hidden_opacity);
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ void draw_dots(render::Picture& picture, const render::Camera& camera, std::vect
     const double radius = std::max(2.5, 0.5 * pixels(camera, dot.diameter, at.depth));
     const Point center{at.x, at.y};
     if (!dot.visible) {
-      fill_disc(picture, center, 0.6 * radius, dot.color, faint);
+      fill_disc(picture, center, 0.6 * radius, dot.color, hidden_opacity);
       continue;
     }
     fill_disc(picture, center, radius + rim, rim_color, rim_opacity);

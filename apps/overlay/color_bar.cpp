@@ -37,7 +37,7 @@ std::string number_text(double value, double step, double size) {
 }
 
 /// A bar in the picture.
-struct Layout {
+struct BarLayout {
   double unit, text, pad;
   double title_width, labels_width;
 
@@ -49,8 +49,8 @@ struct Layout {
   double height() const { return 2.5 * pad + text + bar_height() + 0.5 * text + pad; }
 };
 
-Layout layout_of(const render::Picture& picture, const BarLabels& labels) {
-  Layout l{overlay_unit(picture), overlay_text_height(picture), 0, 0, 0};
+BarLayout layout_of(const render::Picture& picture, const BarLabels& labels) {
+  BarLayout l{overlay_unit(picture), overlay_text_height(picture), 0, 0, 0};
   l.pad = 1.2 * l.text;
   l.title_width = text_width(labels.title, l.text);
   for (const BarLabel& label : labels.ticks)
@@ -69,7 +69,7 @@ void draw_gradient(render::Picture& picture, const Rectangle& bar, const render:
   }
 }
 
-void draw_bar(render::Picture& picture, const ColorBar& bar, const BarLabels& labels, const Layout& l,
+void draw_bar(render::Picture& picture, const ColorBar& bar, const BarLabels& labels, const BarLayout& l,
               double left, double top) {
   draw_plate(picture, {left, top, left + l.width(), top + l.height()});
   const TextStyle style{.height = l.text, .color = plate_ink};
@@ -112,7 +112,7 @@ double draw_color_bars(render::Picture& picture, const std::vector<ColorBar>& ba
   double right = picture.width - margin;
   for (const ColorBar& bar : bars) {
     const BarLabels labels = labels_of(bar);
-    const Layout l = layout_of(picture, labels);
+    const BarLayout l = layout_of(picture, labels);
     const double left = std::round(right - l.width()), top = std::round(0.5 * (picture.height - l.height()));
     if (left < 0.0 || top < 0.0) break;
     draw_bar(picture, bar, labels, l, left, top);

@@ -26,7 +26,7 @@ constexpr std::array<Curve, 4> curves = {{{"kinetic", &EnergySample::kinetic, {8
                                           {"gravity", &EnergySample::gravitational, {64, 200, 150}},
                                           {"total", &EnergySample::total, {244, 244, 246}}}};
 
-struct Layout {
+struct PlotLayout {
   double unit, text;
   double left, top, width, height;  // of the plate
   Rectangle box;                    // of the curves
@@ -57,9 +57,9 @@ double legend_width(double text) {
   return width;
 }
 
-Layout layout_of(const render::Picture& picture, const BarLabels& labels, std::string_view place,
-                 double above, double beside) {
-  Layout l{};
+PlotLayout layout_of(const render::Picture& picture, const BarLabels& labels, std::string_view place,
+                     double above, double beside) {
+  PlotLayout l{};
   l.unit = overlay_unit(picture);
   l.text = 0.82 * overlay_text_height(picture);
   double numbers = 0.0;
@@ -82,7 +82,7 @@ Layout layout_of(const render::Picture& picture, const BarLabels& labels, std::s
   return l;
 }
 
-void draw_legend(render::Picture& picture, const Layout& l) {
+void draw_legend(render::Picture& picture, const PlotLayout& l) {
   const double pad = 1.2 * l.text, y = l.top + pad + 2.9 * l.text;
   const double left = l.left + pad, right = l.left + l.width - pad;
   const double gap = (right - left - legend_width(l.text)) / (curves.size() - 1);
@@ -95,7 +95,8 @@ void draw_legend(render::Picture& picture, const Layout& l) {
   }
 }
 
-void draw_axes(render::Picture& picture, const Layout& l, const EnergyAxes& axes, const BarLabels& labels) {
+void draw_axes(render::Picture& picture, const PlotLayout& l, const EnergyAxes& axes,
+               const BarLabels& labels) {
   const TextStyle style{.height = l.text, .color = plate_ink};
   const double line = std::max(1.0, std::round(0.1 * l.unit));
   for (const BarLabel& label : labels.ticks) {
@@ -125,7 +126,7 @@ void draw_energy_plot(render::Picture& picture, const std::vector<EnergySample>&
                       const EnergyAxes& given, const std::string& place, double above, double beside) {
   const EnergyAxes axes{.time = given.time, .energy = to_round_numbers(given.energy)};
   const BarLabels labels = labels_of({"energy", "J", nullptr, axes.energy[0], axes.energy[1]}, 4);
-  const Layout l = layout_of(picture, labels, place, above, beside);
+  const PlotLayout l = layout_of(picture, labels, place, above, beside);
   if (l.left < 0.0 || l.top < 0.0 || l.left + l.width > picture.width || l.top + l.height > picture.height)
     return;
   draw_plate(picture, {l.left, l.top, l.left + l.width, l.top + l.height});

@@ -8,7 +8,7 @@
 namespace lagomorph::apps {
 namespace {
 
-constexpr double faint = 0.28;  // of the opacity of what is seen
+constexpr double faint_share = 0.28;  // of the opacity of what is seen
 
 /// Each line with gaps.
 std::vector<Segment> with_gaps(const std::vector<Segment>& lines, double on, double off) {
@@ -52,7 +52,8 @@ void draw_lines(render::Picture& picture, const SeenLines& lines, const LineStyl
   const double opacity = style.opacity * std::min(1.0, style.width);
   std::vector<Segment> solid = lines.visible;
   if (style.hidden == "all") solid.insert(solid.end(), lines.hidden.begin(), lines.hidden.end());
-  if (style.hidden == "faint") draw_strokes(picture, lines.hidden, style.width, style.color, faint * opacity);
+  if (style.hidden == "faint")
+    draw_strokes(picture, lines.hidden, style.width, style.color, faint_share * opacity);
   if (style.hidden == "dashed") {
     const double unit = std::max(1.0, style.width);
     draw_strokes(picture, with_gaps(lines.hidden, 3.0 * unit, 4.0 * unit), style.width, style.color,

@@ -32,4 +32,12 @@ struct PreviewMaterial {
 /// Error(wrong_input) when there is nothing to show.
 PreviewMaterial read_material(const std::filesystem::path& run, const std::optional<FrameRange>& frames);
 
+/// The numbers that frames go by in a map.
+std::vector<int> frame_numbers(const auto& frames) {
+  std::vector<int> all;
+  all.reserve(frames.size());
+  for (const auto& frame : frames) all.push_back(frame.first);
+  return all;
+}
+
 }  // namespace lagomorph::apps

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int compression = 9;  // of the contact sheet
+constexpr int sheet_compression = 9;  // of the contact sheet
 
 /// What shows pictures; without one, what an earlier preview left goes.
 void make_pictures(Preview& preview, const WorkFolder& work, Progress& progress) {
@@ -26,7 +26,7 @@ void make_pictures(Preview& preview, const WorkFolder& work, Progress& progress)
   } else {
     make_small(preview.shown, preview.material, work.path(), progress);
     if (stop_asked()) return;
-    write_file(sheet, render::encode_png(contact_sheet(preview.material, preview.shown), compression));
+    write_file(sheet, render::encode_png(contact_sheet(preview.material, preview.shown), sheet_compression));
     preview.contact_sheet = "contact_sheet.png";
   }
   preview.animations =

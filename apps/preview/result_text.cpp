@@ -22,13 +22,6 @@ std::vector<std::string> files_of(const Preview& preview) {
   return files;
 }
 
-std::vector<int> numbers(const auto& frames) {
-  std::vector<int> all;
-  all.reserve(frames.size());
-  for (const auto& frame : frames) all.push_back(frame.first);
-  return all;
-}
-
 }  // namespace
 
 std::string preview_json(const Preview& preview) {
@@ -38,8 +31,8 @@ std::string preview_json(const Preview& preview) {
                {"headline", valid_utf8(headline(m))},
                {"out", valid_utf8(preview.out.string())},
                {"by_lagomorph", m.info.has_value()},
-               {"pictures", numbers(m.pictures)},
-               {"states", numbers(m.records)},
+               {"pictures", frame_numbers(m.pictures)},
+               {"states", frame_numbers(m.records)},
                {"unreadable", Json::array()},
                {"files", Json::array()},
                {"remarks", Json::array()}};

@@ -23,13 +23,6 @@ std::string seconds_text(double seconds) {
   return seconds >= 0.0995 ? fmt::format("{:.2f} s", seconds) : fmt::format("{:.3g} ms", 1000 * seconds);
 }
 
-std::vector<int> numbers(const auto& frames) {
-  std::vector<int> all;
-  all.reserve(frames.size());
-  for (const auto& frame : frames) all.push_back(frame.first);
-  return all;
-}
-
 /// Frames whose record says so.
 std::vector<int> frames_where(const PreviewMaterial& m, const auto& says) {
   std::vector<int> frames;
@@ -102,7 +95,7 @@ void add_seconds(const PreviewMaterial& m, Facts& facts) {
 }
 
 std::string frames_text(const PreviewMaterial& m) {
-  const std::vector<int> drawn = numbers(m.pictures), simulated = numbers(m.records);
+  const std::vector<int> drawn = frame_numbers(m.pictures), simulated = frame_numbers(m.records);
   const auto of = [&](const std::vector<int>& frames) {
     return fmt::format("{}: {}",
                        m.scene_frames > 0 ? fmt::format("{} of {}", frames.size(), m.scene_frames)

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double half_turn = std::numbers::pi;
 
-double luminance(const Color& c) { return 0.2126 * c.x() + 0.7152 * c.y() + 0.0722 * c.z(); }
+double brightness(const Color& c) { return 0.2126 * c.x() + 0.7152 * c.y() + 0.0722 * c.z(); }
 
 /// Mean luminance of the bilinear map over a texel: 3/4 of its own and 1/8 of each neighbour's, along both
 /// axes.
@@ -17,8 +17,8 @@ double mean_luminance(const SkyMap& map, int x, int y) {
   const int left = (x + map.width() - 1) % map.width();
   const int right = (x + 1) % map.width();
   const auto along = [&](int row) {
-    return 0.75 * luminance(map.texel(x, row)) +
-           0.125 * (luminance(map.texel(left, row)) + luminance(map.texel(right, row)));
+    return 0.75 * brightness(map.texel(x, row)) +
+           0.125 * (brightness(map.texel(left, row)) + brightness(map.texel(right, row)));
   };
   return 0.75 * along(y) + 0.125 * (along(std::max(y - 1, 0)) + along(std::min(y + 1, map.height() - 1)));
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "render/channels.h"
+#include "render/raster/programs.h"
 #include "render/raster/shaders/shaders.h"
 
 namespace lagomorph::render::raster {
@@ -30,16 +31,14 @@ constexpr std::array<Part, 6> parts = {{
     {2, motion_channel, 3, 1, 1},
 }};
 
-const char* definition(bool colors) { return colors ? "#define COLORS\n" : ""; }
-
 }  // namespace
 
 DataPass::DataPass(int width, int height, bool colors)
     : width_(width),
       height_(height),
       colors_(colors),
-      mesh_("mesh data", {definition(colors), shaders::frame, shaders::data_vertex},
-            {definition(colors), shaders::frame, shaders::data_outputs, shaders::data_fragment}),
+      mesh_("mesh data", {color_definition(colors), shaders::frame, shaders::data_vertex},
+            {color_definition(colors), shaders::frame, shaders::data_outputs, shaders::data_fragment}),
       ground_("ground data", {shaders::frame, shaders::ground_vertex},
               {shaders::frame, shaders::ground_point, shaders::data_outputs, shaders::ground_data_fragment}) {
   bind(target_, width, height);

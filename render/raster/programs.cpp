@@ -10,15 +10,16 @@ namespace {
 std::string definitions(int multisample, bool colors) {
   return "#define SAMPLES " + std::to_string(multisample) + "\n" + (colors ? "#define COLORS\n" : "");
 }
-const char* definition(bool colors) { return colors ? "#define COLORS\n" : ""; }
 
 }  // namespace
 
+const char* color_definition(bool colors) { return colors ? "#define COLORS\n" : ""; }
+
 SeenPrograms::SeenPrograms(int multisample, bool colors)
-    : mesh("seen mesh", {definition(colors), shaders::frame, shaders::mesh_vertex},
-           {definition(colors), shaders::frame, shaders::seen_fragment}),
+    : mesh("seen mesh", {color_definition(colors), shaders::frame, shaders::mesh_vertex},
+           {color_definition(colors), shaders::frame, shaders::seen_fragment}),
       light("seen light", {shaders::frame, shaders::emitter_vertex},
-            {"#define EMITTER\n", definition(colors), shaders::frame, shaders::seen_fragment}),
+            {"#define EMITTER\n", color_definition(colors), shaders::frame, shaders::seen_fragment}),
       layer("layer", {shaders::frame, shaders::layer_vertex},
             {"#define SHADOWS\n", definitions(multisample, colors).c_str(), shaders::frame, shaders::brdf,
              shaders::shadow, shaders::sky, shaders::shade, shaders::ground_point, shaders::layers,

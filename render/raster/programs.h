@@ -12,6 +12,9 @@ struct SeenPrograms {
   Program mesh, light, layer;
 };
 
+/// For shaders of meshes whose vertices have colours.
+const char* color_definition(bool colors);
+
 /// All but those of LightMaps, and those that few scenes need.
 struct Programs {
   explicit Programs(int multisample);
