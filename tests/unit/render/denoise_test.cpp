@@ -167,7 +167,7 @@ RenderSettings settings(int samples, bool denoised) {
 /// A sphere on the ground under a wide light.
 Image draw(const RenderSettings& s, int threads = 2) {
   RenderScene scene;
-  scene.meshes = {path::make_sphere(3, 0.5F, Vec3(0, 0.5F, 0))};
+  scene.meshes = {make_sphere(3, 0.5F, Vec3(0, 0.5F, 0))};
   AreaLight light;
   light.position = Vec3(2, 3, 1);
   scene.lights = {light};
