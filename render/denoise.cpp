@@ -21,7 +21,7 @@ constexpr float albedo_scale = 0.5F;
 constexpr float depth_scale = 0.1F;        // of its logarithm
 constexpr float nowhere = 1e6F;            // depth of where nothing is [m]
 constexpr float ridge = 0.01F;             // keeps features that hardly vary from fitting the noise
-constexpr float residual_share = 0.1F;     // of the variance, left after the first pass
+constexpr float residual_share = 0.2F;     // of the variance, left after the first pass
 constexpr float just_noticeable = 0.002F;  // of luminance: below it squares are alike without noise, too
 
 using Floats = std::vector<float>;

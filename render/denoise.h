@@ -19,7 +19,7 @@ struct NoisyPicture {
 struct DenoiseSettings {
   int radius = 7;         // of the window that a pixel is found from [pixels], 1 .. 32
   int patch_radius = 2;   // of the squares that are compared [pixels], 0 .. 8
-  float strength = 0.7F;  // of noise that two squares may differ by and still be taken for alike, > 0
+  float strength = 1.0F;  // of noise that two squares may differ by and still be taken for alike, > 0
 };
 
 /// The picture without most of its noise, 3 floats a pixel: nonlinearly weighted first-order regression
