@@ -10,6 +10,7 @@
 #include "apps/cli/command_line.h"
 #include "apps/cli/print.h"
 #include "apps/one_line.h"
+#include "apps/run/blas_kernel.h"
 #include "render/error.h"
 #include "sim/error.h"
 
@@ -34,6 +35,7 @@ int lagomorph_main(const std::vector<std::string>& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  lagomorph::apps::restart_with_better_blas_kernel(argv);
   std::signal(SIGPIPE, SIG_IGN);  // a pipe that closed is an error of the write, told like any other
   try {
     return lagomorph_main({argv + (argc > 0 ? 1 : 0), argv + argc});
