@@ -27,5 +27,5 @@ cutaway 12 raster 1 960x540
 forces 60 raster 1 960x540
 turntable 100 raster 1 640x360
 side_by_side 16 raster 1 640x360
-ears 36 path 256 640x360
+ears 36 path 1024 640x360
 SCENES
