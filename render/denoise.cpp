@@ -229,8 +229,11 @@ public:
 private:
   void add_offset(int first_row, int rows, int dx, int dy, Scratch& s) const {
     const int f = settings_.patch_radius;
-    for (int j = -f; j < rows + f; ++j)
-      compare_row(first_row + j, dx, dy, s.difference[static_cast<std::size_t>(j + f)].data() + f);
+    int patch_row = first_row - f;
+    for (Floats& apart : s.difference) {
+      if (patch_row == first_row + rows + f) break;
+      compare_row(patch_row++, dx, dy, apart.data() + f);
+    }
     // Only pixels of the picture are taken in.
     const int begin = std::max(0, -dx), end = std::min(width_, width_ - dx);
     for (int row = 0; row < rows; ++row) {
@@ -264,8 +267,9 @@ private:
     const int f = settings_.patch_radius;
     float* const columns = s.columns.data() + f;
     std::fill(s.columns.begin(), s.columns.end(), 0.0F);
-    for (int j = 0; j <= 2 * f; ++j) {
-      const float* const apart = s.difference[static_cast<std::size_t>(row + j)].data() + f;
+    const auto first = s.difference.begin() + row;
+    for (auto patch_row = first; patch_row != first + 2 * f + 1; ++patch_row) {
+      const float* const apart = patch_row->data() + f;
       for (int x = begin - f; x < end + f; ++x) columns[x] += apart[x];
     }
     for (std::size_t k = 0; k < features; ++k) {

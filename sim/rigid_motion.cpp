@@ -4,7 +4,7 @@
 
 namespace lagomorph::sim {
 
-VecX rigid_part(Eigen::Ref<const VecX> q, Eigen::Ref<const VecX> dq) {
+VecX rigid_part(const Eigen::Ref<const VecX>& q, const Eigen::Ref<const VecX>& dq) {
   const Eigen::Index n = q.size() / 3;
   const Eigen::Map<const Points> x(q.data(), n, 3), d(dq.data(), n, 3);
   const Eigen::RowVector3d center = x.colwise().mean(), t = d.colwise().mean();
