@@ -5,6 +5,7 @@
 #include <string>
 
 #include "render/error.h"
+#include "render/ground_texture.h"
 
 namespace lagomorph::render {
 namespace {
@@ -89,6 +90,12 @@ void check_ground(const Ground& ground) {
   check_range("ground height", ground.height, -largest, largest, "finite, within 1e6 m");
   if (!(ground.radius > 0.0F && ground.radius <= largest))
     throw SettingsError("ground radius = " + std::to_string(ground.radius) + " must be above 0 m");
+  const std::vector<std::string> textures = ground_texture_names();
+  if (std::find(textures.begin(), textures.end(), ground.texture) == textures.end())
+    throw SettingsError("unknown ground texture '" + ground.texture + "'; known are none, checker, grid");
+  check_range("ground texture_size", ground.texture_size, 1e-3F, largest, "in 0.001 .. 1e6 m");
+  check_range("ground line_width", ground.line_width, 1e-6F, largest, "in 1e-6 .. 1e6 m");
+  check_color("ground texture_color", ground.texture_color, 1.0F, "in 0 .. 1");
   if (!(ground.fade_start >= 0.0F && ground.fade_start < ground.radius)) {
     throw SettingsError("ground fade_start = " + std::to_string(ground.fade_start) +
                         " must be >= 0 and below radius");

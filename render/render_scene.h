@@ -57,6 +57,10 @@ struct Ground {
   float radius = 12.0F;        // > 0
   float fade_start = 3.0F;     // < radius
   Material material{Color(0.55F, 0.55F, 0.55F), 0.9F, 0.0F, 1.5F};
+  std::string texture = "none";                   // see ground_texture_names()
+  float texture_size = 0.5F;                      // side of a square [m], in [1e-3, 1e6]
+  Color texture_color = Color(0.3F, 0.3F, 0.3F);  // of every other square, or the lines, in [0, 1]
+  float line_width = 0.008F;                      // of a grid [m], > 0
 };
 
 /// A one-sided rectangle that shines from `position` towards `look_at`, Lambertian; `size` is width, height.

@@ -10,6 +10,7 @@
 #include "apps/scene/camera_keys.h"
 #include "apps/scene/overlay_keys.h"
 #include "render/color.h"
+#include "render/ground_texture.h"
 #include "render/path/filter.h"
 #include "render/renderer.h"
 #include "sim/integrator.h"
@@ -327,6 +328,19 @@ void visit_ground(render::Ground& g, KeyVisitor& v) {
          .bounds = at_least(0),
          .meaning = "up to where it is opaque, < radius"},
         &g.fade_start);
+  v.key({.name = "texture",
+         .meaning = "squares of two colours, or lines, from the world's origin; lines at whole metres are "
+                    "three times as wide",
+         .choices = render::ground_texture_names},
+        &g.texture);
+  v.key({.name = "texture_size", .unit = "m", .bounds = between(0.001, 1e6), .meaning = "side of a square"},
+        &g.texture_size);
+  v.key({.name = "texture_color",
+         .bounds = between(0, 1),
+         .meaning = "linear RGB of every other square, or of the lines"},
+        &g.texture_color);
+  v.key({.name = "line_width", .unit = "m", .bounds = between(1e-6, 1e6), .meaning = "of the grid's lines"},
+        &g.line_width);
   v.one({.name = "material", .meaning = "how it is drawn", .is_inline = true}, g.material, visit_look);
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "render/albedo.h"
+#include "render/ground_texture.h"
 #include "render/path/microfacet.h"
 #include "render/path/tile_means.h"
 #include "render/path/tile_statistics.h"
@@ -226,9 +227,14 @@ void PathTracer::arrive(std::uint32_t depth) {
     if (ahead.ground < SceneGeometry::never) {
       absorb(path, path.inside, ahead.ground);
       const SurfacePoint at = geometry_.arrive_at_ground(ray, ahead.ground);
-      if (keep)
-        keep_first_hit(path.lane, at, shading_.albedos.back(), camera_.depth(ray, ahead.ground), share);
-      begin_vertex(at, ray, path, shading_.ground_brdf(), share);
+      std::optional<Color> color;
+      if (shading_.ground.texture != "none")
+        color = ground_color_at(shading_.ground, geometry_.ground_point(ray, ahead.ground));
+      if (keep) {
+        keep_first_hit(path.lane, at, color.value_or(shading_.albedos.back()),
+                       camera_.depth(ray, ahead.ground), share);
+      }
+      begin_vertex(at, ray, path, shading_.ground_brdf(), share, color ? &*color : nullptr);
     } else if (ahead.on_mesh) {
       const SurfacePoint at = geometry_.arrive(ray, hits_[i], ahead.mesh);
       const std::optional<Color> color = geometry_.color_at(hits_[i], ahead.mesh);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "render/ground_texture.h"
+
 namespace lagomorph::render::path {
 namespace {
 
@@ -38,8 +40,10 @@ Seen seen_by(const SeenScene& scene, const Ray& ray, const MeshHit& hit) {
   if (to_ground < SceneGeometry::never) {
     seen.t = to_ground;
     seen.normal = Vec3(0.0F, ray.direction.y() < 0.0F ? 1.0F : -1.0F, 0.0F);
-    seen.albedo = scene.shading.albedos.back();
     seen.position = seen.before = scene.geometry.ground_point(ray, to_ground);
+    seen.albedo = scene.shading.ground.texture == "none"
+                      ? scene.shading.albedos.back()
+                      : ground_color_at(scene.shading.ground, seen.position);
   }
   return seen;
 }

@@ -40,7 +40,8 @@ DataPass::DataPass(int width, int height, bool colors)
       mesh_("mesh data", {color_definition(colors), shaders::frame, shaders::data_vertex},
             {color_definition(colors), shaders::frame, shaders::data_outputs, shaders::data_fragment}),
       ground_("ground data", {shaders::frame, shaders::ground_vertex},
-              {shaders::frame, shaders::ground_point, shaders::data_outputs, shaders::ground_data_fragment}) {
+              {shaders::frame, shaders::ground_point, shaders::ground_color, shaders::data_outputs,
+               shaders::ground_data_fragment}) {
   bind(target_, width, height);
   const std::array<const Texture*, 3> textures = {&position_and_triangle_, &normal_and_motion_x_,
                                                   &albedo_and_motion_y_};

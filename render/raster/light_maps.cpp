@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/ground_texture.h"
 #include "render/raster/light_view.h"
 #include "render/raster/shaders/shaders.h"
 #include "render/raster/sky_model.h"
@@ -68,9 +69,9 @@ Sphere bounding_sphere(std::span<const std::vector<Vec3>> positions, const Eigen
 LightMaps::LightMaps(const RasterSettings& settings)
     : settings_(settings),
       depth_program_("depth map", {shaders::depth_map_vertex}, {shaders::depth_map_fragment}),
-      ground_program_(
-          "ground map", {shaders::full_screen_vertex},
-          {shaders::frame, shaders::brdf, shaders::shadow, shaders::sky, shaders::ground_map_fragment}) {
+      ground_program_("ground map", {shaders::full_screen_vertex},
+                      {shaders::frame, shaders::brdf, shaders::shadow, shaders::sky, shaders::ground_color,
+                       shaders::ground_map_fragment}) {
   allocate_table(sky_table_, sky_table_size, 1, sky_irradiance_table(sky_table_size));
   allocate_table(coat_table_, coat_table_size, coat_table_size, coat_albedo_table(coat_table_size));
   allocate_depth(sky_maps_, sky_map_size, most_sky_directions);
@@ -116,6 +117,10 @@ void LightMaps::set_scene(const RenderScene& scene, FrameBlock& block) {
   const Ground& g = scene.ground;
   ground_ = g.enabled;
   block.ground = Vec4(g.height, g.radius, g.fade_start, g.enabled ? 1.0F : 0.0F);
+  const std::vector<std::string> textures = ground_texture_names();
+  const auto texture = std::find(textures.begin(), textures.end(), g.texture) - textures.begin();
+  block.ground_texture = Vec4(static_cast<float>(texture), g.texture_size, g.line_width, 0.0F);
+  block.texture_color = vec4(g.texture_color, 0.0F);
   block.ground_at = vec4(Vec3(g.center.x(), g.height, g.center.z()), 0.0F);
   block.counts = Vec4(static_cast<float>(scene.lights.size()), static_cast<float>(settings_.shadow_samples),
                       0.0F, static_cast<float>(ground_map_size));

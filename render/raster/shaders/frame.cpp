@@ -20,7 +20,7 @@ layout(std140, binding = 0) uniform Frame {
   mat4 clip_from_world;
   vec4 eye, forward, right, up, viewport;
   vec4 zenith, horizon, background;
-  vec4 ground, ground_at, ground_map, shadowed_ground;
+  vec4 ground, ground_at, ground_texture, texture_color, ground_map, shadowed_ground;
   vec4 sky_map;
   vec4 counts;
   Light lights[4];

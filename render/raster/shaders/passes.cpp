@@ -257,6 +257,38 @@ float ground_fade(vec3 x) {
 }
 )";
 
+// The ground's colour, the mean over a square of `width` around x; see ground_texture.h.
+const char* const ground_color = R"(
+// The integral from 0 to x of what is 1 on lines of that width at multiples of `period` and 0 elsewhere.
+vec2 lines_up_to(vec2 x, float period, float line) {
+  vec2 k = floor(x / period + 0.5);
+  return k * line + clamp(x - k * period, -0.5 * line, 0.5 * line);
+}
+vec2 on_lines(vec2 x, vec2 width, float period, float line) {
+  line = min(line, period);
+  return (lines_up_to(x + 0.5 * width, period, line) - lines_up_to(x - 0.5 * width, period, line)) / width;
+}
+vec3 ground_color_at(vec3 x, vec2 width) {
+  vec3 plain = surfaces[0].color.rgb;
+  if (ground_texture.x < 0.5) return plain;
+  float size = ground_texture.y;
+  width = max(width, vec2(1e-4 * size));
+  float part;
+  if (ground_texture.x < 1.5) {
+    // Squares are bands of the two directions' signs, whose means multiply.
+    vec2 odd = on_lines(x.xz - 0.5 * size, width, 2.0 * size, size);
+    vec2 mean_sign = 1.0 - 2.0 * odd;
+    part = 0.5 - 0.5 * mean_sign.x * mean_sign.y;
+  } else {
+    vec2 fine = on_lines(x.xz, width, size, ground_texture.z);
+    vec2 metres = on_lines(x.xz, width, 1.0, 3.0 * ground_texture.z);
+    vec2 line = max(fine, metres);
+    part = 1.0 - (1.0 - line.x) * (1.0 - line.y);
+  }
+  return mix(plain, texture_color.rgb, part);
+}
+)";
+
 const char* const ground_fragment = R"(
 out vec4 color;
 void main() {
@@ -270,7 +302,10 @@ void main() {
   vec2 at = ground_map_at(p.x);
   vec3 seen = vec3(1.0);
   if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)))) seen = texture(ground_ambient, at).rgb;
-  color = vec4(shade(p, v, surfaces[0], seen, horizon.rgb), met ? 1.0 - ground_fade(p.x) : 0.0);
+  Surface surface = surfaces[0];
+  // A pixel and a half, as wide as the filter of the path tracer.
+  surface.color.rgb = ground_color_at(p.x, 1.5 * fwidth(p.x.xz));
+  color = vec4(shade(p, v, surface, seen, horizon.rgb), met ? 1.0 - ground_fade(p.x) : 0.0);
 }
 )";
 
@@ -301,7 +336,7 @@ void main() {
     light += lights[i].radiance.rgb * rectangle_irradiance(lights[i], x, n, direction) * light_visibility(i, x, n, 0.0, ground_map.y);
   }
   ambient = vec4(seen, 1.0);
-  bounce = vec4((1.0 - surfaces[0].finish.y) * surfaces[0].color.rgb / PI * light, 1.0);
+  bounce = vec4((1.0 - surfaces[0].finish.y) * ground_color_at(x, vec2(ground_map.y)) / PI * light, 1.0);
 }
 )";
 

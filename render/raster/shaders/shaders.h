@@ -8,6 +8,7 @@ extern const char* const brdf;          // GGX coat over Lambert, a rectangle's 
 extern const char* const shadow;        // how much of a light is seen from a point
 extern const char* const sky;           // the sky's light on a point, with what hides it
 extern const char* const shade;         // all of it together
+extern const char* const ground_color;
 extern const char* const ground_point;  // where a pixel sees the ground
 
 extern const char* const layers;  // the samples of a pixel, sorted by surface
