@@ -303,8 +303,9 @@ void main() {
   vec3 seen = vec3(1.0);
   if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)))) seen = texture(ground_ambient, at).rgb;
   Surface surface = surfaces[0];
-  // A pixel and a half, as wide as the filter of the path tracer.
-  surface.color.rgb = ground_color_at(p.x, 1.5 * fwidth(p.x.xz));
+  // As wide as the path tracer's filter: a box of the same variance.
+  vec2 over_x = dFdx(p.x.xz), over_y = dFdy(p.x.xz);
+  surface.color.rgb = ground_color_at(p.x, 1.35 * sqrt(over_x * over_x + over_y * over_y));
   color = vec4(shade(p, v, surface, seen, horizon.rgb), met ? 1.0 - ground_fade(p.x) : 0.0);
 }
 )";
