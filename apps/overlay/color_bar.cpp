@@ -19,11 +19,11 @@ struct Prefix {
   double factor;
 };
 
-/// That of a value's thousands; none beyond them, and for pure numbers.
-Prefix prefix_of(double size, bool has_unit) {
+/// That of a value's thousands; none beyond them, for pure numbers, and of units that have one.
+Prefix prefix_of(double size, const std::string& unit) {
   constexpr std::array<Prefix, 7> prefixes = {
       {{"G", 1e9}, {"M", 1e6}, {"k", 1e3}, {"", 1.0}, {"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}}};
-  if (!has_unit || size >= 1e12) return {"", 1.0};
+  if (unit.empty() || unit.starts_with("k") || size >= 1e12) return {"", 1.0};
   for (const Prefix& prefix : prefixes)
     if (size >= prefix.factor) return prefix;
   return {"", 1.0};
@@ -93,7 +93,7 @@ void draw_bar(render::Picture& picture, const ColorBar& bar, const BarLabels& la
 
 BarLabels labels_of(const ColorBar& bar, int steps) {
   const double size = std::max(std::abs(bar.low), std::abs(bar.high));
-  const Prefix prefix = prefix_of(size, !bar.unit.empty());
+  const Prefix prefix = prefix_of(size, bar.unit);
   BarLabels labels{bar.title, {}};
   if (!bar.unit.empty()) labels.title += fmt::format(" ({}{})", prefix.name, bar.unit);
   const std::vector<double> places = ticks(bar.low / prefix.factor, bar.high / prefix.factor, steps);

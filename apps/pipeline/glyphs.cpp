@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -21,10 +22,12 @@ constexpr Color gravity_color = {120, 190, 255};
 
 sim::Vec3 force_on(const VecX& f, int node) { return f.segment<3>(3 * static_cast<Eigen::Index>(node)); }
 
-/// The force on a body, its centre by the forces' sizes, and where the surface looks there.
+/// The force on a body, its centre by the forces' sizes, and where the surface looks there: 0 where it looks
+/// everywhere, as that of a body whose inside is pulled.
 struct Total {
   sim::Vec3 force = sim::Vec3::Zero(), center = sim::Vec3::Zero(), normal = sim::Vec3::Zero();
 };
+constexpr double of_one_side = 0.3;  // least part of normals that do not cancel
 
 /// Outward, by the areas around; zero of nodes inside. Of all nodes of the mesh.
 std::vector<Vec3> node_normals(const LineMesh& mesh, const std::vector<Vec3>& x) {
@@ -39,15 +42,18 @@ std::vector<Vec3> node_normals(const LineMesh& mesh, const std::vector<Vec3>& x)
 Total total_of(const sim::Body& body, const VecX& f, const std::vector<Vec3>& x,
                const std::vector<Vec3>& normals) {
   Total total;
-  double weights = 0.0;
+  double weights = 0.0, normals_apart = 0.0;
   for (int v = body.vertices.begin; v < body.vertices.end; ++v) {
     const double weight = force_on(f, v).norm();
     total.force += force_on(f, v);
     total.center += weight * x[static_cast<std::size_t>(v)].cast<double>();
-    total.normal += weight * normals[static_cast<std::size_t>(v)].cast<double>();
+    const sim::Vec3 normal = weight * normals[static_cast<std::size_t>(v)].cast<double>();
+    total.normal += normal;
+    normals_apart += normal.norm();
     weights += weight;
   }
   if (weights > 0.0) total.center /= weights;
+  if (total.normal.norm() < of_one_side * normals_apart) total.normal.setZero();
   return total;
 }
 
@@ -91,7 +97,12 @@ void draw_tag(render::Picture& picture, const render::Camera& camera, const Vec3
   const Point along{(b.x - a.x) / length, (b.y - a.y) / length};
   const double half_width = 0.5 * width + pad, half_height = 0.5 * height + pad;
   const double away = 0.5 * height + std::abs(along.x) * half_width + std::abs(along.y) * half_height;
-  const double x = std::round(b.x + away * along.x), y = std::round(b.y + away * along.y);
+  // Within the picture, while the arrow's end is.
+  if (b.x < 0.0 || b.y < 0.0 || b.x > picture.width || b.y > picture.height) return;
+  const double x = std::clamp(std::round(b.x + away * along.x), std::min(half_width, 0.5 * picture.width),
+                              std::max(picture.width - half_width, 0.5 * picture.width));
+  const double y = std::clamp(std::round(b.y + away * along.y), std::min(half_height, 0.5 * picture.height),
+                              std::max(picture.height - half_height, 0.5 * picture.height));
   draw_plate(picture, {x - half_width, y - half_height, x + half_width, y + half_height});
   draw_text(picture, x - 0.5 * width, y + 0.5 * height, text, {.height = height, .color = color});
 }
@@ -108,7 +119,12 @@ Glyphs::Glyphs(const SceneDesc& scene, const sim::Model& model, const std::vecto
     : scene_(scene), model_(model), surfaces_(surfaces) {
   if (is_empty()) return;
   const sim::Points& X = model.mesh().X;
-  const double diagonal = (X.colwise().maxCoeff() - X.colwise().minCoeff()).norm();
+  // Of the smallest body, on which they must be readable, too.
+  double diagonal = std::numeric_limits<double>::infinity();
+  for (const sim::Body& body : model.mesh().bodies) {
+    const auto own = X.middleRows(body.vertices.begin, body.vertices.size());
+    diagonal = std::min(diagonal, (own.colwise().maxCoeff() - own.colwise().minCoeff()).norm());
+  }
   size_ = scene.glyphs.size.value_or(diagonal / 55.0);
   const double largest = scene.glyphs.loads == "none" ? 0.0 : largest_force(scene, model);
   force_ = scene.glyphs.force.value_or(largest > 0.0 ? largest / (0.22 * diagonal) : 1.0);
@@ -162,7 +178,7 @@ void Glyphs::draw_loads(render::Picture& picture, const View& view, const sim::S
   const std::vector<Vec3> x = to_render(sim::as_points(state.q));
   const Color color = srgb_color(scene_.glyphs.load_color);
   const bool in_all = scene_.glyphs.loads == "total";
-  std::vector<Arrow> arrows;
+  std::vector<Arrow> arrows, inner;  // on surfaces; from within, so that nothing hides them
   const auto add = [&](const sim::Vec3& at, const sim::Vec3& force, const sim::Vec3& normal) {
     const sim::Vec3 length = force / force_;
     if (length.norm() < 1e-3 * size_) return;
@@ -173,10 +189,11 @@ void Glyphs::draw_loads(render::Picture& picture, const View& view, const sim::S
                lighter(color));
     }
     const sim::Vec3 tail = pushes ? sim::Vec3(at - length) : at;
-    arrows.push_back({.from = tail.cast<float>(),
-                      .to = (tail + length).cast<float>(),
-                      .color = color,
-                      .head = in_all ? 2.2 * size_ : size_});
+    std::vector<Arrow>& kind = in_all && normal.isZero(0.0) ? inner : arrows;
+    kind.push_back({.from = tail.cast<float>(),
+                    .to = (tail + length).cast<float>(),
+                    .color = color,
+                    .head = in_all ? 2.2 * size_ : size_});
   };
   for (std::size_t b = 0; b < tets_.size(); ++b) {
     const std::vector<Vec3> normals = node_normals(tets_[b].mesh, x);
@@ -192,6 +209,7 @@ void Glyphs::draw_loads(render::Picture& picture, const View& view, const sim::S
     }
   }
   draw_arrows(picture, view, std::move(arrows));
+  draw_arrows(picture, view, std::move(inner), false);
 }
 
 /// From each body's centre of mass; inside of it, so that nothing hides it.

@@ -132,10 +132,13 @@ bool Views::drew(const PictureRecord& record) const {
 }
 
 std::vector<std::string> Views::remarks() const {
-  std::vector<std::string> all;
-  for (const std::unique_ptr<View>& view : views_)
-    for (std::string& remark : view->overlays.remarks())
-      if (std::find(all.begin(), all.end(), remark) == all.end()) all.push_back(std::move(remark));
+  // What has no effect in one panel may have some in another.
+  std::vector<std::string> all = views_.front()->overlays.remarks();
+  for (const std::unique_ptr<View>& view : views_) {
+    const std::vector<std::string> own = view->overlays.remarks();
+    std::erase_if(all,
+                  [&](const std::string& r) { return std::find(own.begin(), own.end(), r) == own.end(); });
+  }
   return all;
 }
 

@@ -72,7 +72,7 @@ void visit_glyphs(GlyphsDesc& g, KeyVisitor& v) {
          .unit = "m",
          .bounds = above(0),
          .meaning = "diameter of dots and length of arrows' heads",
-         .default_note = "1/55 of the bodies' diagonal at rest"},
+         .default_note = "1/55 of the smallest body's diagonal at rest"},
         &g.size);
   v.key({.name = "force",
          .unit = "N",

@@ -101,13 +101,21 @@ std::string filters(const VideoJob& job) {
         "format=rgb,",
         c[0], c[1], c[2], job.width, job.height, job.fps / job.every);
   }
-  if (codec.filter != nullptr) return text + codec.filter;
+  if (codec.filter != nullptr) {
+    // Players show the delay of 1/100 s, which GIF counts in, as ten.
+    if (std::string_view(codec.name) == "gif" && job.fps / job.every > 50.0) text += "fps=50,";
+    return text + codec.filter;
+  }
   const int right = job.width % 2, bottom = job.height % 2;
   if (right + bottom > 0) {
     text += fmt::format("pad={}:{},fillborders=right={}:bottom={}:mode=smear,", job.width + right,
                         job.height + bottom, right, bottom);
   }
-  return text + "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+bitexact";
+  text += "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+bitexact";
+  // This encoder takes the tables from the pictures, and knows no sRGB curve.
+  if (codec.encoder[1] == "prores_ks")
+    text += ",setparams=colorspace=bt709:color_primaries=bt709:color_trc=bt709";
+  return text;
 }
 
 /// The last line that says something.

@@ -47,6 +47,8 @@ TEST(ColorBar, HasRoundNumbersInAShortUnit) {
             "x: -2e+07 -1.5e+07 -1e+07 -5e+06 0 5e+06 1e+07 1.5e+07 2e+07");
   EXPECT_EQ(text(labels_of({"elastic energy density", "J/m^3", nullptr, -3, 6})),
             "elastic energy density (J/m^3): -2 0 2 4 6");
+  EXPECT_EQ(text(labels_of({"density", "kg/m^3", nullptr, 1000, 2000})),
+            "density (kg/m^3): 1000 1200 1400 1600 1800 2000");
 }
 
 TEST(ColorBar, TicksStandAtTheirValues) {

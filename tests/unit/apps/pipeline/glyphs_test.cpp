@@ -97,6 +97,19 @@ TEST(Glyphs, ArrowsOfLoadsScaleWithTheForce) {
               1e-12);
 }
 
+/// What pulls at all of a body pulls from its middle, in front of all, and not from one side today and from
+/// another tomorrow.
+TEST(Glyphs, ArrowsOfBodyLoadsBeginInTheMiddle) {
+  for (const char* acceleration : {"[0, -20, 0]", "[0, -20, 1e-9]", "[1e-9, -20, -1e-9]"}) {
+    const Bar bar(
+        {"body.0.load=[{ acceleration = " + std::string(acceleration) + " }]", "glyphs.loads=total"});
+    const render::Camera camera(bar.scene.camera, 160, 120);
+    const auto [first, last] = bar.rows();
+    EXPECT_NEAR(first, camera.project({0.0F, 0.3F, 0.0F}).y(), 3.0F) << acceleration;
+    EXPECT_GT(last, first + 10) << acceleration;
+  }
+}
+
 TEST(Glyphs, GravityPullsFromTheCentreOfMass) {
   const Bar bar({"glyphs.gravity=true"});
   const render::Camera camera(bar.scene.camera, 160, 120);

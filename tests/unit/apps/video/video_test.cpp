@@ -130,6 +130,36 @@ TEST(Video, CanBeAnAnimatedPicture) {
     EXPECT_EQ(static_cast<unsigned char>(pixels[i * 33 * 25 * 3]), 40 * (2 + i)) << "exactly its colour";
 }
 
+/// No delay of 1/100 s, which players take for ten.
+TEST(Video, AsGifHasNoMoreThanFiftyPicturesASecond) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not on the PATH";
+  const tests::TemporaryDirectory dir;
+  VideoJob job = job_of(dir, "frames", 0, 5, 8, 8);
+  job.fps = 60.0;
+  job.codec = "gif";
+  job.output = dir.path() / "video.gif";
+  ASSERT_TRUE(make_video(job, never));
+  const std::string gif = tests::read_all(job.output), control = {'\x21', '\xf9', '\x04'};
+  int pictures = 0;
+  for (std::size_t at = gif.find(control); at != std::string::npos;
+       at = gif.find(control, at + 1), ++pictures)
+    EXPECT_GE(gif[at + 4] + 256 * gif[at + 5], 2);
+  EXPECT_EQ(pictures, 5);
+}
+
+/// Frames of ProRes tell their tables themselves, and other programs go by them.
+TEST(Video, AsProResTellsItsColours) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not on the PATH";
+  const tests::TemporaryDirectory dir;
+  VideoJob job = job_of(dir, "frames", 0, 1, 32, 16);
+  for (const char* codec : {"prores", "prores4444"}) {
+    job.codec = codec;
+    job.output = dir.path() / "video.mov";
+    ASSERT_TRUE(make_video(job, never));
+    EXPECT_NE(probe(job.output, dir.path()).find("color_space=bt709"), std::string::npos) << codec;
+  }
+}
+
 /// Pictures between which others are left out, at the pace of the motion.
 TEST(Video, OfEveryOtherPicture) {
   if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not on the PATH";
