@@ -62,11 +62,8 @@ public:
   render::RenderScene scene(int frame) const {
     const sim::VecX q = state(frame).q;
     render::RenderScene drawn = rest_;
-    for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-      const sim::Points positions = surfaces_[i].positions(q);
-      for (std::size_t v = 0; v < drawn.meshes[i].positions.size(); ++v)
-        drawn.meshes[i].positions[v] = positions.row(static_cast<Eigen::Index>(v)).transpose().cast<float>();
-    }
+    for (std::size_t i = 0; i < surfaces_.size(); ++i)
+      drawn.meshes[i].positions = to_render(surfaces_[i].positions(q));
     return drawn;
   }
 

@@ -2,22 +2,18 @@
 
 #include <utility>
 
+#include "apps/pipeline/build_scene.h"
+
 namespace lagomorph::apps {
 
 MovingMesh::MovingMesh(const sim::Surface& surface, const BodyDesc& body, std::string name)
     : surface_(&surface), name_(std::move(name)), look_(body.look) {
-  for (const sim::Triangle& t : surface.triangles())
-    triangles_.push_back({static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
-                          static_cast<std::uint32_t>(t[2])});
+  for (const sim::Triangle& t : surface.triangles()) triangles_.push_back(to_render(t));
   if (body.surface.smooth) normals_.emplace(triangles_, vertex_count());
 }
 
 std::vector<render::Vec3> MovingMesh::positions(const sim::VecX& q) const {
-  const sim::Points x = surface_->positions(q);
-  std::vector<render::Vec3> positions(vertex_count());
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    positions[i] = x.row(static_cast<Eigen::Index>(i)).transpose().cast<float>();
-  return positions;
+  return to_render(surface_->positions(q));
 }
 
 std::vector<render::Vec3> MovingMesh::normals(const std::vector<render::Vec3>& positions) const {

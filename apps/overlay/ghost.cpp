@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "apps/overlay/overlay.h"
+
 namespace lagomorph::apps {
 namespace {
 
@@ -21,15 +23,11 @@ Vec3 towards_eye(const render::Camera& camera, const Vec3& at) {
   return camera.is_orthographic() ? Vec3(-camera.forward()) : Vec3((camera.position() - at).normalized());
 }
 
-/// Whether an item is a triangle at either end of the edge: a contour that goes to and fro from edge to edge
-/// has no gaps where its neighbours hide it.
+/// At either end of the edge: a contour that goes to and fro from edge to edge has no gaps where its
+/// neighbours hide it.
 View::IsOwn triangles_around(const LineMesh& mesh, const std::array<std::uint32_t, 2>& edge, int first_item) {
-  return [&mesh, edge, first_item](int item) {
-    const auto i = static_cast<std::size_t>(item - first_item);
-    if (item < first_item || i >= mesh.triangles.size()) return false;
-    const render::Triangle& t = mesh.triangles[i];
-    return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return v == edge[0] || v == edge[1]; });
-  };
+  return [a = triangles_with(mesh, edge[0], first_item),
+          b = triangles_with(mesh, edge[1], first_item)](int item) { return a(item) || b(item); };
 }
 
 /// How much of each pixel the ghost covers, times how it is seen there.
@@ -57,14 +55,7 @@ void fill(render::Picture& picture, const View& things, const ItemBuffer& ghost,
           continue;
         sum += static_cast<double>(strength[static_cast<std::size_t>(item)]);
       }
-      if (sum == 0.0) continue;
-      const double opacity = style.opacity * sum / (n * n);
-      const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                                  static_cast<std::size_t>(column));
-      for (std::size_t i = 0; i < 3; ++i) {
-        std::uint8_t& value = picture.rgb[at + i];
-        value = static_cast<std::uint8_t>(std::lround(value + opacity * (style.color[i] - value)));
-      }
+      if (sum != 0.0) blend(picture, column, y, style.color, style.opacity * sum / (n * n));
     }
   }
 }

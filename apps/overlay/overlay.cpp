@@ -28,6 +28,15 @@ double overlay_text_height(const render::Picture& picture) {
   return std::max(6.0, 1.7 * overlay_unit(picture));
 }
 
+void blend(render::Picture& picture, int x, int y, const Color& color, double opacity) {
+  const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                              static_cast<std::size_t>(x));
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::uint8_t& value = picture.rgb[at + i];
+    value = static_cast<std::uint8_t>(std::lround(value + opacity * (color[i] - value)));
+  }
+}
+
 void fill_rectangle(render::Picture& picture, const Rectangle& r, const Color& color, double opacity) {
   const int x0 = pixel_at(std::floor(r.left), picture.width),
             x1 = pixel_at(std::ceil(r.right), picture.width);
@@ -35,13 +44,7 @@ void fill_rectangle(render::Picture& picture, const Rectangle& r, const Color& c
             y1 = pixel_at(std::ceil(r.bottom), picture.height);
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) {
-      const double c = opacity * covered(x, r.left, r.right) * covered(y, r.top, r.bottom);
-      const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                                  static_cast<std::size_t>(x));
-      for (std::size_t i = 0; i < 3; ++i) {
-        std::uint8_t& value = picture.rgb[at + i];
-        value = static_cast<std::uint8_t>(std::lround(value + c * (color[i] - value)));
-      }
+      blend(picture, x, y, color, opacity * covered(x, r.left, r.right) * covered(y, r.top, r.bottom));
     }
   }
 }

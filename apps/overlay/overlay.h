@@ -15,6 +15,9 @@ double overlay_unit(const render::Picture&);
 /// Height of capitals, large enough to read.
 double overlay_text_height(const render::Picture&);
 
+/// Blends a colour into one pixel of the picture.
+void blend(render::Picture&, int x, int y, const Color&, double opacity);
+
 /// Blends a colour in; pixels that are covered in part take their part. What lies outside is cut off.
 void fill_rectangle(render::Picture&, const Rectangle&, const Color&, double opacity = 1.0);
 

@@ -23,13 +23,7 @@ void fill(render::Picture& picture, const Rectangle& box, const Color& color, do
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) {
       const double c = opacity * std::clamp(0.5 - distance(Point{x + 0.5, y + 0.5}), 0.0, 1.0);
-      if (c == 0.0) continue;
-      const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                                  static_cast<std::size_t>(x));
-      for (std::size_t i = 0; i < 3; ++i) {
-        std::uint8_t& value = picture.rgb[at + i];
-        value = static_cast<std::uint8_t>(std::lround(value + c * (color[i] - value)));
-      }
+      if (c != 0.0) blend(picture, x, y, color, c);
     }
   }
 }

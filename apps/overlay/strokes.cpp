@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "apps/overlay/overlay.h"
+
 namespace lagomorph::apps {
 namespace {
 
@@ -61,13 +63,7 @@ void draw_strokes(render::Picture& picture, std::span<const Segment> segments, d
   for (int y = all.y0; y <= all.y1; ++y) {
     for (int x = all.x0; x <= all.x1; ++x) {
       const double c = opacity * cover[place(x, y)];
-      if (c == 0) continue;
-      const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                                  static_cast<std::size_t>(x));
-      for (std::size_t i = 0; i < 3; ++i) {
-        std::uint8_t& value = picture.rgb[at + i];
-        value = static_cast<std::uint8_t>(std::lround(value + c * (color[i] - value)));
-      }
+      if (c != 0) blend(picture, x, y, color, c);
     }
   }
 }

@@ -10,6 +10,14 @@ namespace {
 
 constexpr double faint_share = 0.28;  // of the opacity of what is seen
 
+/// nullptr where the item is none of the mesh's.
+const render::Triangle* triangle_of(const LineMesh& mesh, int item, int first_item) {
+  const auto i = static_cast<std::size_t>(item - first_item);
+  return item >= first_item && i < mesh.triangles.size() ? &mesh.triangles[i] : nullptr;
+}
+
+bool has(const render::Triangle& t, std::uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
+
 /// Each line with gaps.
 std::vector<Segment> with_gaps(const std::vector<Segment>& lines, double on, double off) {
   std::vector<Segment> dashes;
@@ -38,13 +46,17 @@ LineMesh line_mesh(std::vector<render::Triangle> triangles) {
   return mesh;
 }
 
+View::IsOwn triangles_with(const LineMesh& mesh, std::uint32_t vertex, int first_item) {
+  return [&mesh, vertex, first_item](int item) {
+    const render::Triangle* const t = triangle_of(mesh, item, first_item);
+    return t != nullptr && has(*t, vertex);
+  };
+}
+
 View::IsOwn triangles_at(const LineMesh& mesh, const std::array<std::uint32_t, 2>& edge, int first_item) {
   return [&mesh, edge, first_item](int item) {
-    const auto i = static_cast<std::size_t>(item - first_item);
-    if (item < first_item || i >= mesh.triangles.size()) return false;
-    const render::Triangle& t = mesh.triangles[i];
-    const auto has = [&t](std::uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; };
-    return has(edge[0]) && has(edge[1]);
+    const render::Triangle* const t = triangle_of(mesh, item, first_item);
+    return t != nullptr && has(*t, edge[0]) && has(*t, edge[1]);
   };
 }
 

@@ -26,7 +26,9 @@ struct LineStyle {
   std::string hidden = "none";  // or "faint", "dashed", "all"
 };
 
-/// Whether an item is a triangle of the mesh, drawn from first_item on, that has both ends of the edge.
+/// Whether an item is a triangle of the mesh, drawn from first_item on, that has the vertex.
+View::IsOwn triangles_with(const LineMesh&, std::uint32_t vertex, int first_item);
+/// The same of one that has both ends of the edge.
 View::IsOwn triangles_at(const LineMesh&, const std::array<std::uint32_t, 2>& edge, int first_item);
 
 /// Draws seen lines as two layers, the hidden ones below.

@@ -9,15 +9,10 @@
 namespace lagomorph::apps {
 namespace {
 
-render::Triangle unsigned_triangle(const sim::Triangle& t) {
-  return {static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
-          static_cast<std::uint32_t>(t[2])};
-}
-
 LineMesh boundary_lines(const sim::TetMesh& mesh, sim::Range tets) {
   const std::vector<sim::BoundaryFace> faces = sim::boundary_faces(mesh, tets);
   std::vector<render::Triangle> triangles;
-  for (const sim::Triangle& t : sim::drawn_boundary(mesh, tets)) triangles.push_back(unsigned_triangle(t));
+  for (const sim::Triangle& t : sim::drawn_boundary(mesh, tets)) triangles.push_back(to_render(t));
   LineMesh lines = line_mesh(std::move(triangles));
   std::vector<bool> is_corner(static_cast<std::size_t>(mesh.vertex_count()));
   for (const sim::BoundaryFace& face : faces)
@@ -48,7 +43,7 @@ BodyLines lines_of(const SceneDesc& scene, const sim::Model& model, const std::v
 BodyLines lines_of_surface(const sim::Surface& surface) {
   std::vector<render::Triangle> triangles;
   triangles.reserve(surface.triangles().size());
-  for (const sim::Triangle& t : surface.triangles()) triangles.push_back(unsigned_triangle(t));
+  for (const sim::Triangle& t : surface.triangles()) triangles.push_back(to_render(t));
   return {line_mesh(std::move(triangles)), &surface};
 }
 

@@ -168,6 +168,11 @@ std::vector<render::Vec3> to_render(const sim::Points& points) {
   return positions;
 }
 
+render::Triangle to_render(const sim::Triangle& t) {
+  return {static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
+          static_cast<std::uint32_t>(t[2])};
+}
+
 std::vector<render::Color> plain_colors(const SceneDesc& scene, const sim::Surface& surface,
                                         std::size_t body) {
   std::vector<render::Color> colors(static_cast<std::size_t>(surface.vertex_count()),
@@ -187,8 +192,7 @@ render::RenderScene build_render_scene(const SceneDesc& scene, const sim::Model&
     const SurfaceDesc& shown = scene.body[i].surface;
     for (const sim::Triangle& t : surfaces[i].triangles()) {
       if (!shown.fill) break;
-      mesh.triangles.push_back({static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
-                                static_cast<std::uint32_t>(t[2])});
+      mesh.triangles.push_back(to_render(t));
       if (shown.flip) std::swap(mesh.triangles.back()[1], mesh.triangles.back()[2]);
     }
     mesh.positions = to_render(surfaces[i].positions(X));

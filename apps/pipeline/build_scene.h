@@ -28,6 +28,8 @@ std::vector<sim::Surface> drawn_surfaces(const SceneDesc&, const sim::Model&, Pr
 
 /// In single precision, as renderers take them.
 std::vector<render::Vec3> to_render(const sim::Points&);
+/// As renderers number vertices.
+render::Triangle to_render(const sim::Triangle&);
 
 /// Colours of a body's vertices where no field shows: its own, and the cut's.
 std::vector<render::Color> plain_colors(const SceneDesc&, const sim::Surface&, std::size_t body);

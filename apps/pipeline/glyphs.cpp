@@ -143,14 +143,7 @@ bool Glyphs::is_empty() const {
 
 bool Glyphs::sees_vertex(const View& view, std::size_t body, std::uint32_t node,
                          const std::vector<Vec3>& positions) const {
-  const LineMesh& mesh = tets_[body].mesh;
-  const auto is_own = [&](int item) {
-    const auto i = static_cast<std::size_t>(item - own_items(body));
-    if (item < own_items(body) || i >= mesh.triangles.size()) return false;
-    const render::Triangle& t = mesh.triangles[i];
-    return t[0] == node || t[1] == node || t[2] == node;
-  };
-  return view.sees(positions[node], is_own);
+  return view.sees(positions[node], triangles_with(tets_[body].mesh, node, own_items(body)));
 }
 
 void Glyphs::draw_pins(render::Picture& picture, const View& view, const sim::State& state) const {

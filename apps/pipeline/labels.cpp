@@ -19,8 +19,6 @@ int spacing(std::size_t count, int most) {
   return static_cast<int>(std::max<std::size_t>(1, (count + limit - 1) / limit));
 }
 
-bool has(const render::Triangle& t, std::uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
-
 bool overlap(const Rectangle& a, const Rectangle& b) {
   return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 }
@@ -65,10 +63,8 @@ void Labels::draw(render::Picture& picture, const View& view, const std::vector<
   for (std::size_t i = 0; every_vertex_ > 0 && i < vertices_.size();
        i += static_cast<std::size_t>(every_vertex_)) {
     const std::uint32_t v = vertices_[i];
-    const auto is_own = [&](int item) {
-      return item >= first_item && place(item) < triangles.size() && has(triangles[place(item)], v);
-    };
-    if (view.sees(x[v], is_own)) write(x[v], v - static_cast<std::size_t>(first_vertex_), vertex_color);
+    if (view.sees(x[v], triangles_with(lines_.mesh, v, first_item)))
+      write(x[v], v - static_cast<std::size_t>(first_vertex_), vertex_color);
   }
   for (std::size_t f = 0; every_face_ > 0 && f < triangles.size();
        f += static_cast<std::size_t>(every_face_)) {
