@@ -6,6 +6,7 @@
 #include <string>
 
 #include <Eigen/Cholesky>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include "render/error.h"
@@ -54,12 +55,19 @@ Plane plane_of(int width, int height, int border, const Value& value) {
   return plane;
 }
 
-/// What a picture is compared and fitted by.
+using Features = std::array<Plane, features>;
+
+/// What is fitted: colours, and what they are linear in.
+struct Fitted {
+  std::array<Plane, 3> color;
+  Features feature;
+};
+
+/// What squares of pixels are compared by.
 struct Guide {
   std::array<Plane, 3> color;
   Plane variance;
   Plane tolerance;  // of squared differences without noise
-  std::array<Plane, features> feature;
 };
 
 void require(bool ok, const char* what) {
@@ -77,43 +85,50 @@ void check(const NoisyPicture& p, const DenoiseSettings& s) {
   require(s.strength > 0.0F && std::isfinite(s.strength), "strength must be > 0");
 }
 
-Guide make_guide(const NoisyPicture& p, std::span<const float> color, float variance_share, int border) {
-  const auto at = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(p.width) + static_cast<std::size_t>(x);
+std::size_t pixel_of(const NoisyPicture& p, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(p.width) + static_cast<std::size_t>(x);
+}
+
+std::array<Plane, 3> color_planes(const NoisyPicture& p, std::span<const float> color, int border) {
+  const auto plane = [&](std::size_t c) {
+    return plane_of(p.width, p.height, border,
+                    [&](int x, int y) { return color[3 * pixel_of(p, x, y) + c]; });
   };
-  const auto make = [&](const auto& value) { return plane_of(p.width, p.height, border, value); };
-  const auto color_of = [&](int c) {
-    return make([&, c](int x, int y) { return color[3 * at(x, y) + static_cast<std::size_t>(c)]; });
-  };
-  const auto feature_of = [&](int k) {
-    return make([&, k](int x, int y) {
-      const std::size_t i = at(x, y);
-      if (k < 3) return p.normal[3 * i + static_cast<std::size_t>(k)] / normal_scale;
-      if (k < 6) return p.albedo[3 * i + static_cast<std::size_t>(k - 3)] / albedo_scale;
+  return {plane(0), plane(1), plane(2)};
+}
+
+Features features_of(const NoisyPicture& p, int border) {
+  const auto plane = [&](std::size_t k) {
+    return plane_of(p.width, p.height, border, [&](int x, int y) {
+      const std::size_t i = pixel_of(p, x, y);
+      if (k < 3) return p.normal[3 * i + k] / normal_scale;
+      if (k < 6) return p.albedo[3 * i + k - 3] / albedo_scale;
       const float z = std::isfinite(p.depth[i]) ? std::max(p.depth[i], 1e-6F) : nowhere;
       return std::log(z) / depth_scale;
     });
   };
+  return {plane(0), plane(1), plane(2), plane(3), plane(4), plane(5), plane(6)};
+}
+
+Guide make_guide(const NoisyPicture& p, std::span<const float> color, float variance_share, int border) {
   // The variance is itself found from few samples: its mean over 3x3 pixels is steadier.
-  const auto variance = make([&](int x, int y) {
+  const auto variance = [&](int x, int y) {
     float sum = 0.0F;
     for (int j = -1; j <= 1; ++j)
       for (int i = -1; i <= 1; ++i)
         for (std::size_t c = 0; c < 3; ++c)
-          sum +=
-              p.variance[3 * at(std::clamp(x + i, 0, p.width - 1), std::clamp(y + j, 0, p.height - 1)) + c];
+          sum += p.variance[3 * pixel_of(p, std::clamp(x + i, 0, p.width - 1),
+                                         std::clamp(y + j, 0, p.height - 1)) +
+                            c];
     return variance_share * sum / 27.0F;
-  });
-  const auto tolerance = make([&](int x, int y) {
-    const float* c = &color[3 * at(x, y)];
+  };
+  const auto tolerance = [&](int x, int y) {
+    const float* c = &color[3 * pixel_of(p, x, y)];
     const float level = just_noticeable * (c[0] + c[1] + c[2]) / 3.0F;
     return level * level + 1e-12F;
-  });
-  return {{color_of(0), color_of(1), color_of(2)},
-          variance,
-          tolerance,
-          {feature_of(0), feature_of(1), feature_of(2), feature_of(3), feature_of(4), feature_of(5),
-           feature_of(6)}};
+  };
+  return {color_planes(p, color, border), plane_of(p.width, p.height, border, variance),
+          plane_of(p.width, p.height, border, tolerance)};
 }
 
 /// Falls from 1 to 0 at `end` much as exp(-d) does.
@@ -206,9 +221,8 @@ struct Scratch {
 
 class Denoiser {
 public:
-  Denoiser(const Guide& guide, const std::array<Plane, 3>& noisy, int width, int height,
-           const DenoiseSettings& settings)
-      : guide_(guide), noisy_(noisy), width_(width), height_(height), settings_(settings) {}
+  Denoiser(const Guide& guide, const Fitted& fitted, int width, int height, const DenoiseSettings& settings)
+      : guide_(guide), fitted_(fitted), width_(width), height_(height), settings_(settings) {}
 
   void find_block(int first_row, Scratch& s, std::vector<float>& found) const {
     const int rows = std::min(block_rows, height_ - first_row);
@@ -241,7 +255,7 @@ private:
       if (y + dy < 0 || y + dy >= height_ || begin >= end) continue;
       weigh_row(row, y, begin, end, dx, dy, s);
       std::array<const float*, 3> color;
-      for (std::size_t c = 0; c < 3; ++c) color[c] = noisy_[c].row(y + dy) + dx;
+      for (std::size_t c = 0; c < 3; ++c) color[c] = fitted_.color[c].row(y + dy) + dx;
       s.fit.add(row, begin, end, s.weight.data(), s.features_apart, color);
     }
   }
@@ -273,7 +287,7 @@ private:
       for (int x = begin - f; x < end + f; ++x) columns[x] += apart[x];
     }
     for (std::size_t k = 0; k < features; ++k) {
-      const float *here = guide_.feature[k].row(y), *there = guide_.feature[k].row(y + dy) + dx;
+      const float *here = fitted_.feature[k].row(y), *there = fitted_.feature[k].row(y + dy) + dx;
       float* const apart = s.features_apart[k].data();
       for (int x = begin; x < end; ++x) apart[x] = there[x] - here[x];
     }
@@ -297,20 +311,18 @@ private:
   }
 
   const Guide& guide_;
-  const std::array<Plane, 3>& noisy_;
+  const Fitted& fitted_;
   int width_, height_;
   DenoiseSettings settings_;
 };
 
-std::vector<float> run(const Guide& guide, const std::array<Plane, 3>& noisy, const NoisyPicture& p,
+std::vector<float> run(const Guide& guide, const Fitted& fitted, const NoisyPicture& p,
                        const DenoiseSettings& settings) {
   std::vector<float> found(p.color.size());
-  const Denoiser denoiser(guide, noisy, p.width, p.height, settings);
+  const Denoiser denoiser(guide, fitted, p.width, p.height, settings);
   const int blocks = (p.height + block_rows - 1) / block_rows;
-  tbb::parallel_for(0, blocks, [&](int k) {
-    Scratch scratch(p.width, settings.patch_radius);
-    denoiser.find_block(k * block_rows, scratch, found);
-  });
+  tbb::enumerable_thread_specific<Scratch> scratch([&] { return Scratch(p.width, settings.patch_radius); });
+  tbb::parallel_for(0, blocks, [&](int k) { denoiser.find_block(k * block_rows, scratch.local(), found); });
   return found;
 }
 
@@ -323,11 +335,10 @@ int denoising_reach(const DenoiseSettings& settings) {
 std::vector<float> denoise(const NoisyPicture& p, const DenoiseSettings& settings) {
   check(p, settings);
   const int border = settings.radius + settings.patch_radius;
-  const Guide first = make_guide(p, p.color, 1.0F, border);
-  const std::vector<float> once = run(first, first.color, p, settings);
+  const Fitted fitted{color_planes(p, p.color, border), features_of(p, border)};
+  const std::vector<float> once = run(make_guide(p, p.color, 1.0F, border), fitted, p, settings);
   // Once more, the squares compared in what was found: weights that the noise has no say in.
-  const Guide second = make_guide(p, once, residual_share, border);
-  return run(second, first.color, p, settings);
+  return run(make_guide(p, once, residual_share, border), fitted, p, settings);
 }
 
 }  // namespace lagomorph::render

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "render/albedo.h"
-#include "render/ground_texture.h"
 #include "render/path/microfacet.h"
 #include "render/path/tile_means.h"
 #include "render/path/tile_statistics.h"
@@ -46,42 +44,6 @@ float power_heuristic(float pdf, float other) {
 }
 
 }  // namespace
-
-Shading::Shading(const RenderScene& scene)
-    : ground(scene.ground), sky(scene.sky), background(scene.background) {
-  const auto add = [&](const Material& material) {
-    brdfs.emplace_back(material);
-    albedos.push_back(albedo(material));
-  };
-  for (const Mesh& mesh : scene.meshes) add(mesh.material);
-  add(scene.ground.material);
-  float total = 0.0F;
-  for (const AreaLight& light : scene.lights) {
-    const RectangleLight rectangle(light);
-    if (rectangle.power() <= 0.0F) continue;
-    lights.push_back(rectangle);
-    total += rectangle.power();
-  }
-  for (const RectangleLight& light : lights) pick.push_back(light.power() / total);
-  float of_suns = 0.0F;
-  for (const Sun& sun : scene.suns) {
-    const SunLight disc(sun);
-    if (disc.strength() <= 0.0F) continue;
-    suns.push_back(disc);
-    of_suns += disc.strength();
-  }
-  for (const SunLight& sun : suns) sun_pick.push_back(sun.strength() / of_suns);
-  if (sky.map) sky_sampler.emplace(*sky.map);
-}
-
-Color Shading::open_view(const Vec3& direction) const {
-  if (background) return *background;
-  Color light = sky_radiance(sky, direction);
-  for (const SunLight& sun : suns) {
-    if (sun.visible() && sun.contains(direction)) light += sun.radiance();
-  }
-  return light;
-}
 
 PathTracer::PathTracer(const SceneGeometry& geometry, const Shading& shading, const Camera& camera,
                        const PixelFilter& filter, int samples, const PathSettings& settings)
@@ -227,9 +189,7 @@ void PathTracer::arrive(std::uint32_t depth) {
     if (ahead.ground < SceneGeometry::never) {
       absorb(path, path.inside, ahead.ground);
       const SurfacePoint at = geometry_.arrive_at_ground(ray, ahead.ground);
-      std::optional<Color> color;
-      if (shading_.ground.texture != "none")
-        color = ground_color_at(shading_.ground, geometry_.ground_point(ray, ahead.ground));
+      const std::optional<Color> color = shading_.textured_ground(geometry_.ground_point(ray, ahead.ground));
       if (keep) {
         keep_first_hit(path.lane, at, color.value_or(shading_.albedos.back()),
                        camera_.depth(ray, ahead.ground), share);

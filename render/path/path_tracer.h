@@ -5,15 +5,12 @@
 #include <vector>
 
 #include "render/camera.h"
-#include "render/path/bsdf.h"
 #include "render/path/filter.h"
 #include "render/path/lens.h"
-#include "render/path/light.h"
 #include "render/path/random_walk.h"
 #include "render/path/sampler.h"
 #include "render/path/scene_geometry.h"
-#include "render/path/sky_sampler.h"
-#include "render/path/sun.h"
+#include "render/path/shading.h"
 #include "render/render_scene.h"
 #include "render/settings.h"
 
@@ -21,27 +18,6 @@ namespace lagomorph::render::path {
 
 class TileStatistics;
 class TileMeans;
-
-/// What paths need to know of a scene besides its geometry.
-struct Shading {
-  explicit Shading(const RenderScene&);
-
-  std::vector<Bsdf> brdfs;     // a mesh each, then the ground's
-  std::vector<Color> albedos;  // likewise
-  std::vector<RectangleLight> lights;
-  std::vector<float> pick;  // probability of each light where one is picked
-  std::vector<SunLight> suns;
-  std::vector<float> sun_pick;  // likewise
-  Ground ground;
-  Sky sky;
-  std::optional<SkySampler> sky_sampler;  // of a sky with a map
-  std::optional<Color> background;
-
-  /// What the camera sees along a direction that meets nothing.
-  Color open_view(const Vec3& direction) const;
-
-  const Bsdf& ground_brdf() const { return brdfs.back(); }
-};
 
 /// What the camera sees first along a path.
 struct FirstHit {

@@ -5,8 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "render/ground_texture.h"
-
 namespace lagomorph::render::path {
 namespace {
 
@@ -41,9 +39,7 @@ Seen seen_by(const SeenScene& scene, const Ray& ray, const MeshHit& hit) {
     seen.t = to_ground;
     seen.normal = Vec3(0.0F, ray.direction.y() < 0.0F ? 1.0F : -1.0F, 0.0F);
     seen.position = seen.before = scene.geometry.ground_point(ray, to_ground);
-    seen.albedo = scene.shading.ground.texture == "none"
-                      ? scene.shading.albedos.back()
-                      : ground_color_at(scene.shading.ground, seen.position);
+    seen.albedo = scene.shading.textured_ground(seen.position).value_or(scene.shading.albedos.back());
   }
   return seen;
 }

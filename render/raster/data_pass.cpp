@@ -37,7 +37,7 @@ DataPass::DataPass(int width, int height, bool colors)
     : width_(width),
       height_(height),
       colors_(colors),
-      mesh_("mesh data", {color_definition(colors), shaders::frame, shaders::data_vertex},
+      mesh_("mesh data", {"#define MOTION\n", color_definition(colors), shaders::frame, shaders::mesh_vertex},
             {color_definition(colors), shaders::frame, shaders::data_outputs, shaders::data_fragment}),
       ground_("ground data", {shaders::frame, shaders::ground_vertex},
               {shaders::frame, shaders::ground_point, shaders::ground_color, shaders::data_outputs,

@@ -2,29 +2,6 @@
 
 namespace lagomorph::render::raster::shaders {
 
-const char* const data_vertex = R"(
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 normal;
-#ifdef COLORS
-layout(location = 2) in vec3 color;
-out vec3 vertex_color;
-#endif
-layout(location = 3) in vec3 previous;
-uniform bool moves;
-out vec3 world;
-out vec3 before;  // where the point was at the frame before
-out vec3 smooth_normal;
-void main() {
-  world = position;
-  before = moves ? previous : position;
-  smooth_normal = normal;
-#ifdef COLORS
-  vertex_color = color;
-#endif
-  gl_Position = clip_from_world * vec4(position, 1.0);
-}
-)";
-
 // What DataPass reads of a pixel.
 const char* const data_outputs = R"(
 uniform mat4 clip_before;  // of the camera at the frame before

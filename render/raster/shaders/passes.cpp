@@ -16,11 +16,19 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 color;
 out vec3 vertex_color;
 #endif
+#ifdef MOTION
+layout(location = 3) in vec3 previous;
+uniform bool moves;
+out vec3 before;  // where the point was at the frame before
+#endif
 out vec3 world;
 out vec3 smooth_normal;
 void main() {
   world = position;
   smooth_normal = normal;
+#ifdef MOTION
+  before = moves ? previous : position;
+#endif
 #ifdef COLORS
   vertex_color = color;
 #endif

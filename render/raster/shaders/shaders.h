@@ -3,11 +3,11 @@
 /// GLSL in parts, to be put one after the other: `frame` first, then what a pass calls, then the pass.
 namespace lagomorph::render::raster::shaders {
 
-extern const char* const frame;         // the Frame block, camera rays, the quad's mean
-extern const char* const brdf;          // GGX coat over Lambert, a rectangle's light on it
-extern const char* const shadow;        // how much of a light is seen from a point
-extern const char* const sky;           // the sky's light on a point, with what hides it
-extern const char* const shade;         // all of it together
+extern const char* const frame;   // the Frame block, camera rays, the quad's mean
+extern const char* const brdf;    // GGX coat over Lambert, a rectangle's light on it
+extern const char* const shadow;  // how much of a light is seen from a point
+extern const char* const sky;     // the sky's light on a point, with what hides it
+extern const char* const shade;   // all of it together
 extern const char* const ground_color;
 extern const char* const ground_point;  // where a pixel sees the ground
 
@@ -32,7 +32,6 @@ extern const char* const mesh_depth_fragment;
 extern const char* const mesh_number_fragment;
 extern const char* const ground_depth_fragment;
 
-extern const char* const data_vertex;
 extern const char* const data_outputs;
 extern const char* const data_fragment;
 extern const char* const ground_data_fragment;

@@ -9,7 +9,7 @@
 
 #include "render/backends.h"
 #include "render/error.h"
-#include "tests/unit/render/path/shapes.h"
+#include "tests/unit/render/path/lit_sphere.h"
 
 namespace lagomorph::render {
 namespace denoise_test {
@@ -154,31 +154,12 @@ TEST(Denoise, TellsWhatIsWrong) {
 }
 
 RenderSettings settings(int samples, bool denoised) {
-  RenderSettings s;
-  s.backend = "path";
-  s.width = 96;
-  s.height = 64;
-  s.samples = samples;
-  s.path.bounces = 2;
+  RenderSettings s = lit_sphere_settings(samples);
   s.path.denoise = denoised;
   return s;
 }
 
-/// A sphere on the ground under a wide light.
-Image draw(const RenderSettings& s, int threads = 2) {
-  RenderScene scene;
-  scene.meshes = {make_sphere(3, 0.5F, Vec3(0, 0.5F, 0))};
-  AreaLight light;
-  light.position = Vec3(2, 3, 1);
-  scene.lights = {light};
-  CameraSettings c;
-  c.position = Vec3(0, 1.2F, 4);
-  c.look_at = Vec3(0, 0.4F, 0);
-  c.fov = 35.0F;
-  const auto renderer = make_path_renderer(s, threads);
-  renderer->set_scene(scene);
-  return renderer->render(Camera(c, s.width, s.height), {});
-}
+Image draw(const RenderSettings& s, int threads = 2) { return draw_lit_sphere(lit_sphere(), s, threads); }
 
 const std::vector<float>& color(const Image& image) { return image.find(color_channel)->values; }
 

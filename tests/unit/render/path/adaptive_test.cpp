@@ -7,44 +7,27 @@
 #include "render/backends.h"
 #include "render/channels.h"
 #include "render/error.h"
-#include "tests/unit/render/path/shapes.h"
+#include "tests/unit/render/path/lit_sphere.h"
 
 namespace lagomorph::render::path {
 namespace adaptive_test {
 
-/// A sphere on the ground under a wide light: even sky above, noise in the penumbra.
+/// Even sky above.
 RenderScene scene_of_test() {
-  RenderScene scene;
-  scene.meshes = {make_sphere(3, 0.5F, Vec3(0, 0.5F, 0))};
-  AreaLight light;
-  light.position = Vec3(2, 3, 1);
-  scene.lights = {light};
+  RenderScene scene = lit_sphere();
   scene.background = Color::Constant(0.3F);
   return scene;
 }
 
 RenderSettings settings(int samples, float threshold) {
-  RenderSettings s;
-  s.backend = "path";
-  s.width = 96;
-  s.height = 64;
-  s.samples = samples;
-  s.path.bounces = 2;
+  RenderSettings s = lit_sphere_settings(samples);
   s.path.noise_threshold = threshold;
   s.path.min_samples = 16;
   s.channels = {"color", "sample_count"};
   return s;
 }
 
-Image draw(const RenderSettings& s, int threads = 2) {
-  CameraSettings c;
-  c.position = Vec3(0, 1.2F, 4);
-  c.look_at = Vec3(0, 0.4F, 0);
-  c.fov = 35.0F;
-  const auto renderer = make_path_renderer(s, threads);
-  renderer->set_scene(scene_of_test());
-  return renderer->render(Camera(c, s.width, s.height), {});
-}
+Image draw(const RenderSettings& s, int threads = 2) { return draw_lit_sphere(scene_of_test(), s, threads); }
 
 const std::vector<float>& values(const Image& image, const char* channel) {
   return image.find(channel)->values;
