@@ -306,6 +306,8 @@ void LinearSolver::solve(const VecX& b, VecX& x) {
 double LinearSolver::factor_nonzeros() const { return implementation_->nonzeros; }
 double LinearSolver::factor_flops() const { return implementation_->flops; }
 
+std::string blas_kernel() { return openblas_get_corename(); }
+
 LinearAlgebraInfo linear_algebra_info() {
   LinearAlgebraInfo info;
   int version[3];
@@ -313,7 +315,7 @@ LinearAlgebraInfo linear_algebra_info() {
   info.cholmod =
       std::to_string(version[0]) + "." + std::to_string(version[1]) + "." + std::to_string(version[2]);
   info.blas = openblas_get_config();
-  info.blas_kernel = openblas_get_corename();
+  info.blas_kernel = blas_kernel();
   info.blas_threads = blas_threads_in_use;
   // The dynamic linker gives CHOLMOD the first dpotrf_ in the order of loading: ask it for the same.
   if (void* symbol = dlsym(RTLD_DEFAULT, "dpotrf_"); symbol != nullptr) {

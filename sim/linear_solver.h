@@ -49,5 +49,7 @@ struct LinearAlgebraInfo {
   bool blas_is_openblas = false;  // whether that file is OpenBLAS's
 };
 LinearAlgebraInfo linear_algebra_info();
+/// Its blas_kernel alone, which costs nothing.
+std::string blas_kernel();
 
 }  // namespace lagomorph::sim

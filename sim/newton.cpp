@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "sim/error.h"
 #include "sim/rigid_motion.h"
@@ -178,15 +179,16 @@ FactorStatus Newton::factorize_shifted(const Model& model) {
 /// Where nothing holds a body at rest, the Hessian is singular along its rigid motions, and the factor turns
 /// the rounding of g into a large one of no use: what of it does no work is taken from the direction.
 void Newton::drop_idle_motion(const Model& model, const Point& point, VecX& direction) const {
-  const double work = std::abs(point.g.dot(direction)),
-               rounding = kNearRoundingFloor * rounding_floor(point.q);
+  const double work = std::abs(point.g.dot(direction));
+  std::optional<double> rounding;  // most models have no free body
   for (const Body& body : model.mesh().bodies) {
     const int first = 3 * body.vertices.begin, size = 3 * (body.vertices.end - body.vertices.begin);
     bool free = true;
     for (int dof = first; dof < first + size && free; ++dof) free = !pins().is_held(dof);
     if (!free) continue;
+    if (!rounding) rounding = kNearRoundingFloor * rounding_floor(point.q);
     const VecX rigid = rigid_part(point.q.segment(first, size), direction.segment(first, size));
-    if (std::abs(point.g.segment(first, size).dot(rigid)) <= std::max(kIdle * work, rounding * rigid.norm()))
+    if (std::abs(point.g.segment(first, size).dot(rigid)) <= std::max(kIdle * work, *rounding * rigid.norm()))
       direction.segment(first, size) -= rigid;
   }
 }

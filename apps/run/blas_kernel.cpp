@@ -41,7 +41,7 @@ std::string_view better_blas_kernel(std::string_view chosen, VectorUnits units) 
 
 void restart_with_better_blas_kernel(char** argv) {
   if (std::getenv(wish) != nullptr || std::getenv(restarted) != nullptr) return;
-  const std::string_view better = better_blas_kernel(sim::linear_algebra_info().blas_kernel, vector_units());
+  const std::string_view better = better_blas_kernel(sim::blas_kernel(), vector_units());
   if (better.empty()) return;
   if (setenv(wish, better.data(), 1) != 0 || setenv(restarted, "1", 1) != 0) return;
   execv("/proc/self/exe", argv);

@@ -1,5 +1,7 @@
 #include "apps/video/video.h"
 
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "apps/error.h"
@@ -41,7 +43,11 @@ struct Codec {
   std::vector<std::string> container;
   bool alpha = false;            // keeps that of the pictures
   const char* filter = nullptr;  // of an animated picture, in sRGB; nullptr: a video, see filters()
+  const char* tables = "";       // filter after all others, for an encoder that takes them from the pictures
+  double most_rate = std::numeric_limits<double>::infinity();  // [1/s]
 };
+/// It knows no sRGB curve.
+constexpr char prores_tables[] = ",setparams=colorspace=bt709:color_primaries=bt709:color_trc=bt709";
 /// The explicit table: a new codec is one row.
 const std::vector<Codec> codecs = {
     {"h264",
@@ -61,7 +67,10 @@ const std::vector<Codec> codecs = {
     {"prores",
      ".mov",
      {"-c:v", "prores_ks", "-profile:v", "3", "-vendor", "apl0", "-pix_fmt", "yuv422p10le"},
-     {"-f", "mov"}},
+     {"-f", "mov"},
+     false,
+     nullptr,
+     prores_tables},
     {"webp",
      ".webp",
      {"-c:v", "libwebp_anim", "-quality", "90", "-compression_level", "4", "-pix_fmt", "yuv420p"},
@@ -74,12 +83,16 @@ const std::vector<Codec> codecs = {
      {"-c:v", "gif"},
      {"-loop", "0", "-f", "gif"},
      false,
-     "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=sierra2_4a"},
+     "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=sierra2_4a",
+     "",
+     50.0},  // players show the delay of 1/100 s, which it counts in, as ten
     {"prores4444",
      ".mov",
      {"-c:v", "prores_ks", "-profile:v", "4", "-vendor", "apl0", "-pix_fmt", "yuva444p10le"},
      {"-f", "mov"},
-     true},
+     true,
+     nullptr,
+     prores_tables},
 };
 
 const Codec& find_codec(const std::string& name) {
@@ -101,21 +114,15 @@ std::string filters(const VideoJob& job) {
         "format=rgb,",
         c[0], c[1], c[2], job.width, job.height, job.fps / job.every);
   }
-  if (codec.filter != nullptr) {
-    // Players show the delay of 1/100 s, which GIF counts in, as ten.
-    if (std::string_view(codec.name) == "gif" && job.fps / job.every > 50.0) text += "fps=50,";
-    return text + codec.filter;
-  }
+  if (job.fps / job.every > codec.most_rate) text += fmt::format("fps={:g},", codec.most_rate);
+  if (codec.filter != nullptr) return text + codec.filter;
   const int right = job.width % 2, bottom = job.height % 2;
   if (right + bottom > 0) {
     text += fmt::format("pad={}:{},fillborders=right={}:bottom={}:mode=smear,", job.width + right,
                         job.height + bottom, right, bottom);
   }
   text += "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+bitexact";
-  // This encoder takes the tables from the pictures, and knows no sRGB curve.
-  if (codec.encoder[1] == "prores_ks")
-    text += ",setparams=colorspace=bt709:color_primaries=bt709:color_trc=bt709";
-  return text;
+  return text + codec.tables;
 }
 
 /// The last line that says something.
