@@ -11,6 +11,7 @@
 #include "apps/check/limits.h"
 #include "apps/cli/command_line.h"
 #include "apps/error.h"
+#include "apps/nearest.h"
 #include "apps/video/video.h"
 #include "render/renderer.h"
 #include "sim/integrator.h"
