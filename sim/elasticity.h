@@ -9,6 +9,7 @@
 #include "sim/compensated_sum.h"
 #include "sim/element.h"
 #include "sim/energy.h"
+#include "sim/invariant_blocks.h"
 #include "sim/inversion.h"
 #include "sim/materials/energy_density.h"
 #include "sim/parallel.h"
@@ -34,7 +35,7 @@ public:
 
   double value(const VecX& q) const override {
     std::vector<double> energy(elements_.size());
-    for_each_element(kCheap, [&](std::size_t j) {
+    for_each_element([&](std::size_t j) {
       const Edges x = edges(j, q);
       for (std::size_t p = 0; p < P; ++p)
         energy[j] += elements_[j].volumes[p] * materials_[j].psi(x * elements_[j].D[p]);
@@ -50,7 +51,7 @@ public:
   /// f_j = -Σ_p vol_jp B_jpᵀ vec(∂ψ/∂F); the part of node a of its negative is Σ_p vol_jp (∂ψ/∂F) D_a.
   void add_gradient(const VecX& q, double scale, VecX& g) const override {
     std::vector<double> vectors(kVectorSize * elements_.size());
-    for_each_element(kCheap, [&](std::size_t j) {
+    for_each_element([&](std::size_t j) {
       Eigen::Map<Eigen::Matrix<double, 3, N>> g_j(vectors.data() + kVectorSize * j);
       const Edges x = edges(j, q);
       for (std::size_t p = 0; p < P; ++p) {
@@ -65,29 +66,18 @@ public:
 
   /// K_j = Σ_p vol_jp B_jpᵀ (∂²ψ/∂F²) B_jp.
   void add_hessian(const VecX& q, double scale, HessianKind kind, BlockHessian& H) const override {
-    std::vector<double>& matrices = H.scratch();
-    matrices.resize(kMatrixSize * elements_.size());
-    for_each_element(kDear, [&](std::size_t j) {
-      double* blocks = matrices.data() + kMatrixSize * j;
-      std::fill_n(blocks, kMatrixSize, 0.0);
-      const Edges x = edges(j, q);
-      for (std::size_t p = 0; p < P; ++p) {
-        const Mat3 F = x * elements_[j].D[p];
-        const bool exact = kind == HessianKind::exact;
-        const Mat9 h = elements_[j].volumes[p] *
-                       (exact ? materials_[j].d2psi_dF2(F) : materials_[j].projected_d2psi_dF2(F));
-        add_inner_blocks<N>(h, elements_[j].D[p], blocks);
-      }
-      complete_blocks<N>(blocks);
+    gather_.add_matrices(scale, H, [&](int begin, int end, double* matrices) {
+      for (int j = begin; j < end; ++j)
+        set_matrix(static_cast<std::size_t>(j), q, kind,
+                   matrices + kMatrixSize * static_cast<std::size_t>(j - begin));
     });
-    gather_.add_matrices(matrices, scale, H);
   }
 
   /// No quadrature point may invert.
   double max_step(const VecX& q, const VecX& dq) const override {
     if constexpr (Material::kNeedsPositiveJ) {
       std::vector<double> steps(elements_.size(), 1.0);
-      for_each_element(kCheap, [&](std::size_t j) {
+      for_each_element([&](std::size_t j) {
         const Edges x = edges(j, q), dx = edges(j, dq);
         for (const auto& D : elements_[j].D)
           steps[j] = std::min(steps[j], step_without_inversion(x * D, dx * D));
@@ -101,7 +91,7 @@ public:
   }
 
   void add_states(const VecX& q, ElementStates& states) const override {
-    for_each_element(kCheap, [&](std::size_t j) {
+    for_each_element([&](std::size_t j) {
       const Edges x = edges(j, q);
       const auto tet = static_cast<std::size_t>(tets_[j]);
       double whole = 0.0;
@@ -116,7 +106,7 @@ public:
   }
 
   void add_moduli(ElementModuli& moduli) const override {
-    for_each_element(kCheap, [&](std::size_t j) {
+    for_each_element([&](std::size_t j) {
       const auto tet = static_cast<std::size_t>(tets_[j]);
       const Mat9 C = materials_[j].d2psi_dF2(Mat3::Identity());
       for (int i = 0; i < 3; ++i) {
@@ -134,7 +124,7 @@ private:
   static constexpr std::size_t P = Element::kPoints;
   static constexpr std::size_t kVectorSize = TetGather::vector_size(N),
                                kMatrixSize = TetGather::matrix_size(N);
-  static constexpr int kCheap = 256, kDear = 64;  // elements a task
+  static constexpr int kCheap = 256;  // elements a task
   using Rule = ElementRule<N, Element::kPoints>;
   using Edges = Eigen::Matrix<double, 3, N - 1>;
 
@@ -172,9 +162,29 @@ private:
     return x;
   }
 
+  void set_matrix(std::size_t j, const VecX& q, HessianKind kind, double* blocks) const {
+    std::fill_n(blocks, kMatrixSize, 0.0);
+    const Edges x = edges(j, q);
+    for (std::size_t p = 0; p < P; ++p) {
+      const auto& D = elements_[j].D[p];
+      const double volume = elements_[j].volumes[p];
+      const Mat3 F = x * D;
+      if constexpr (requires { materials_[j].derivatives(Invariants(F)); }) {
+        if (kind == HessianKind::exact) {
+          add_invariant_blocks<N>(volume, materials_[j].derivatives(Invariants(F)), F, D, blocks);
+          continue;
+        }
+      }
+      const bool exact = kind == HessianKind::exact;
+      const Mat9 h = volume * (exact ? materials_[j].d2psi_dF2(F) : materials_[j].projected_d2psi_dF2(F));
+      add_inner_blocks<N>(h, D, blocks);
+    }
+    complete_blocks<N>(blocks);
+  }
+
   template <class Body>
-  void for_each_element(int grain, Body&& body) const {
-    parallel_for(static_cast<int>(elements_.size()), grain, [&](int begin, int end) {
+  void for_each_element(Body&& body) const {
+    parallel_for(static_cast<int>(elements_.size()), kCheap, [&](int begin, int end) {
       for (int j = begin; j < end; ++j) body(static_cast<std::size_t>(j));
     });
   }

@@ -22,6 +22,8 @@ void check(const SolverSettings& s) {
     throw InputError("solver.blas_threads = " + std::to_string(s.blas_threads) + " must be >= 1");
   if (s.hessian != "auto" && s.hessian != "projected")
     throw InputError("unknown solver.hessian '" + s.hessian + "'; valid ones are auto, projected");
+  if (s.linear != "auto" && s.linear != "cholmod" && s.linear != "cg")
+    throw InputError("unknown solver.linear '" + s.linear + "'; valid ones are auto, cholmod, cg");
 }
 
 namespace {
@@ -33,10 +35,13 @@ constexpr double kLeastClamping = 1.0 / 64.0;
 constexpr double kLeastShift = 1e-14, kLargestShift = 1e-2;
 /// Work of a direction's rigid part over that of the whole, below which it does none.
 constexpr double kIdle = 1e-6;
-constexpr double kFarthest = 1e4;       // of a static equilibrium, over the bodies' coordinates
-constexpr int kMaxBacktracks = 40;      // halvings of a step while the energy tells steps apart
-constexpr int kMaxBlindBacktracks = 8;  // and where only the residual does
-constexpr int kMaxCarries = 8;          // pieces in which the held coordinates may reach their places
+constexpr double kFarthest = 1e4;         // of a static equilibrium, over the bodies' coordinates
+constexpr int kMaxBacktracks = 40;        // halvings of a step while the energy tells steps apart
+constexpr int kMaxBlindBacktracks = 8;    // and where only the residual does
+constexpr double kLoosest = 1e-3;         // tolerance of a linear system
+constexpr double kWhileCarrying = 1e-3;   // likewise, while held coordinates are on their way
+constexpr double kPartOfTolerance = 0.3;  // of Newton's, that a linear system need not be solved beyond
+constexpr int kMaxCarries = 8;            // pieces in which the held coordinates may reach their places
 
 /// Where V is evaluated.
 VecX position_of_V(const IncrementalPotential& phi, const VecX& q) {
@@ -70,13 +75,8 @@ struct Newton::Point {
 };
 
 Newton::Newton(const Model& model, const SolverSettings& settings)
-    : settings_((check(settings), settings)),
-      linear_solver_(settings.blas_threads),
-      pins_(&model.pins()),
-      H_(model.pattern()),
-      exact_(model.pattern()),
-      projected_(model.pattern()) {
-  linear_solver_.analyze(model.pattern(), pins());
+    : settings_((check(settings), settings)), solver_(settings), pins_(&model.pins()), H_(model.pattern()) {
+  solver_.analyze(model.pattern(), pins());
 }
 
 Newton::Point Newton::evaluate(const Model& model, const IncrementalPotential& phi, VecX q) const {
@@ -125,52 +125,67 @@ void Newton::assemble(const Model& model, const IncrementalPotential& phi, const
   if (phi.C != nullptr) H.add(phi.c, *phi.C);
 }
 
-/// The exact Hessian while its Cholesky factorization succeeds, so that Newton stays quadratic. When it does
-/// not, negative eigenvalues of elements are clamped, but only by the part that makes the whole positive
+/// How exactly a system is to be solved: |g| is to fall to `tolerance` times what it is now, and in the end
+/// to `end`.
+struct Newton::Goal {
+  double tolerance = 0.0, end = 0.0;
+};
+
+/// By the exact Hessian while that is found to be positive definite, so that Newton stays quadratic. When it
+/// is not, negative eigenvalues of elements are clamped, but only by the part that makes the whole positive
 /// definite: clamped in full, the elements around a few that buckle are much too stiff, and it takes two to
 /// eight times the iterations. `clamping` is that part, kept from one iteration to the next.
-FactorStatus Newton::factorize(const Model& model, const IncrementalPotential& phi, const VecX& q,
-                               double& clamping) {
+FactorStatus Newton::find_direction(const Model& model, const IncrementalPotential& phi, const Point& point,
+                                    const VecX& lift, const Goal& goal, double& clamping, VecX& direction) {
+  const auto solve = [&] {
+    const FactorStatus status =
+        solver_.solve(H_, lift.size() == 0 ? VecX(-point.g) : VecX(-point.g - H_.times(lift)), goal.tolerance,
+                      goal.end, direction);
+    if (lift.size() != 0 && status == FactorStatus::ok) direction += lift;
+    return status;
+  };
   if (settings_.hessian == "projected") {
-    assemble(model, phi, q, HessianKind::projected, H_);
+    assemble(model, phi, point.q, HessianKind::projected, H_);
     used_clamping_ = 1.0;
-    const FactorStatus status = linear_solver_.factorize(H_);
-    return status == FactorStatus::not_positive_definite ? factorize_shifted(model) : status;
+    const FactorStatus status = solve();
+    return status == FactorStatus::not_positive_definite ? solve_shifted(model, solve) : status;
   }
-  assemble(model, phi, q, HessianKind::exact, H_);
+  assemble(model, phi, point.q, HessianKind::exact, H_);
   used_clamping_ = 0.0;
-  FactorStatus status = linear_solver_.factorize(H_);
+  FactorStatus status = solve();
   if (status != FactorStatus::not_positive_definite) return status;
   exact_ = H_;
-  assemble(model, phi, q, HessianKind::projected, projected_);
+  if (!projected_) projected_.emplace(model.pattern());
+  assemble(model, phi, point.q, HessianKind::projected, *projected_);
   for (clamping = std::max(kLeastClamping, 0.5 * clamping);; clamping *= 4.0) {
     clamping = std::min(clamping, 1.0);
-    H_.set_blend(exact_, projected_, clamping);
+    H_.set_blend(*exact_, *projected_, clamping);
     used_clamping_ = clamping;
-    status = linear_solver_.factorize(H_);
+    status = solve();
     if (status != FactorStatus::not_positive_definite) return status;
-    if (clamping == 1.0) return factorize_shifted(model);
+    if (clamping == 1.0) return solve_shifted(model, solve);
   }
 }
 
 /// Clamped in full a Hessian may still be singular, or so to rounding, where nothing holds a body at rest or
 /// tets are flat: a little more mass on its diagonal goes downhill all the same.
-FactorStatus Newton::factorize_shifted(const Model& model) {
+template <class Solve>
+FactorStatus Newton::solve_shifted(const Model& model, Solve&& solve) {
   const auto largest = [](const BlockHessian& A) {
     double found = 0.0;
     for (int k = 0; k < A.pattern().block_count(); ++k)
       found = std::max(found, A.block(k).cwiseAbs().maxCoeff());
     return found;
   };
-  projected_.set_zero();
-  model.add_mass(1.0, projected_);
-  const double unit = largest(H_) / largest(projected_);
+  BlockHessian mass(model.pattern());
+  model.add_mass(1.0, mass);
+  const double unit = largest(H_) / largest(mass);
   FactorStatus status = FactorStatus::not_positive_definite;
   double sum = 0.0;
   for (double shift = kLeastShift; shift <= kLargestShift; shift *= 100.0) {
     model.add_mass(shift * unit - sum, H_);
     sum = shift * unit;
-    status = linear_solver_.factorize(H_);
+    status = solve();
     if (status != FactorStatus::not_positive_definite) break;
   }
   return status;
@@ -238,8 +253,9 @@ double Newton::carry(const Model& model, const IncrementalPotential& phi, const 
 
 NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& phi, VecX& q) {
   const Pins* held = phi.pins != nullptr ? phi.pins : &model.pins();
-  if (held != pins_) linear_solver_.analyze(model.pattern(), *held);
+  if (held != pins_) solver_.analyze(model.pattern(), *held);
   pins_ = held;
+  solver_.begin(phi.m == 0.0);
   NewtonReport report;
   const double farthest = kFarthest * (q.cwiseAbs().maxCoeff() + model.mesh().X.cwiseAbs().maxCoeff());
   Point point = evaluate(model, phi, std::move(q));
@@ -257,6 +273,14 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
   VecX direction, lift;  // what the held coordinates have still to go
   double clamping = 0.0;
   int carries = 0;
+  double norm_before = 0.0;  // none yet
+  const auto goal_of = [&](const Point& at, double before) {
+    // No more of a system is solved than Newton's own error lets come true. [Eisenstat and Walker 1996,
+    // choice 2]
+    const double end = kPartOfTolerance * settings_.tolerance * at.reference / at.norm;
+    const double quadratic = before > 0.0 ? std::pow(at.norm / before, 2) : kLoosest;
+    return Goal{std::max(end, std::min(kLoosest, quadratic)), end};
+  };
   report.iterates.push_back({point.residual(), point.value, 0.0, 0.0});
   for (;;) {
     if (!point.is_finite()) return end(StepStatus::not_finite);
@@ -266,13 +290,10 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
     if (report.iterations == settings_.max_iterations)
       return arrived ? end_stagnated() : end(StepStatus::not_converged);
 
-    if (factorize(model, phi, point.q, clamping) != FactorStatus::ok) return end(StepStatus::not_positive);
-    if (arrived) {
-      linear_solver_.solve(-point.g, direction);
-    } else {
-      linear_solver_.solve(-point.g - H_.times(lift), direction);
-      direction += lift;
-    }
+    const Goal goal = arrived ? goal_of(point, norm_before) : Goal{kWhileCarrying, kWhileCarrying};
+    if (find_direction(model, phi, point, arrived ? VecX() : lift, goal, clamping, direction) !=
+        FactorStatus::ok)
+      return end(StepStatus::not_positive);
     ++report.iterations;
     if (!direction.allFinite()) return end(StepStatus::not_finite);
     if (!arrived) {
@@ -283,7 +304,7 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
     }
 
     if (phi.m == 0.0) drop_idle_motion(model, point, direction);
-    const double norm_before = point.norm;
+    norm_before = point.norm;
     const double step = search_line(model, phi, direction, point);
     if (step == 0.0) return end_stagnated();
     // Nothing holds what falls without end.

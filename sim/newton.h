@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
+
 #include "sim/block_hessian.h"
 #include "sim/integrator.h"
-#include "sim/linear_solver.h"
 #include "sim/model.h"
 #include "sim/settings.h"
+#include "sim/system_solver.h"
 
 namespace lagomorph::sim {
 
@@ -47,13 +49,18 @@ public:
   /// them by Newton's own direction for held ones that move, in as many pieces as keep V defined. On a bad
   /// status q is where it gave up.
   NewtonReport minimize(const Model&, const IncrementalPotential&, VecX& q);
+  /// How the linear systems were solved so far.
+  const SolveCounts& solves() const { return solver_.counts(); }
 
 private:
   struct Point;
   Point evaluate(const Model&, const IncrementalPotential&, VecX q) const;
   void assemble(const Model&, const IncrementalPotential&, const VecX& q, HessianKind, BlockHessian& H) const;
-  FactorStatus factorize(const Model&, const IncrementalPotential&, const VecX& q, double& clamping);
-  FactorStatus factorize_shifted(const Model&);
+  struct Goal;
+  FactorStatus find_direction(const Model&, const IncrementalPotential&, const Point&, const VecX& lift,
+                              const Goal&, double& clamping, VecX& direction);
+  template <class Solve>
+  FactorStatus solve_shifted(const Model&, Solve&&);
   void drop_idle_motion(const Model&, const Point&, VecX& direction) const;
   double search_line(const Model&, const IncrementalPotential&, const VecX& direction, Point& point) const;
   double carry(const Model&, const IncrementalPotential&, const VecX& direction, Point& point) const;
@@ -61,11 +68,11 @@ private:
   const Pins& pins() const { return *pins_; }
 
   SolverSettings settings_;
-  LinearSolver linear_solver_;
-  const Pins* pins_;  // that it is analyzed for
-  BlockHessian H_;    // as it was factorized last
-  BlockHessian exact_, projected_;
-  double used_clamping_ = 0.0;  // of H_
+  SystemSolver solver_;
+  const Pins* pins_;                               // that it is analyzed for
+  BlockHessian H_;                                 // as it was solved with last
+  std::optional<BlockHessian> exact_, projected_;  // made where H_ is not positive definite
+  double used_clamping_ = 0.0;                     // of H_
 };
 
 }  // namespace lagomorph::sim

@@ -172,7 +172,8 @@ struct SolverSettings {
   int max_halvings = 8;      // how often a step that does not converge is halved, >= 0
   std::string hessian =
       "auto";  // "auto": exact while its Cholesky factorization succeeds, else projected; "projected"
-  int blas_threads = 1;  // OpenBLAS threads in CHOLMOD; part of the result's bits, so of the scene
+  std::string linear = "auto";  // how linear systems are solved; see SystemSolver
+  int blas_threads = 1;         // OpenBLAS threads in CHOLMOD; part of the result's bits, so of the scene
 };
 
 }  // namespace lagomorph::sim

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -27,14 +28,21 @@ public:
 
   /// g += scale · Σ_j E_jᵀ f_j.
   void add_vectors(const std::vector<double>& element_vectors, double scale, VecX& g) const;
-  /// H += scale · Σ_j E_jᵀ K_j E_j. H must be on the same pattern.
-  void add_matrices(const std::vector<double>& element_matrices, double scale, BlockHessian& H) const;
+  /// H += scale · Σ_j E_jᵀ K_j E_j. H must be on the same pattern. `fill(begin, end, matrices)` makes those
+  /// of elements [begin, end), on any thread; they are taken up a batch at a time, while they are still in
+  /// the cache.
+  void add_matrices(double scale, BlockHessian& H,
+                    const std::function<void(int begin, int end, double* matrices)>& fill) const;
 
 private:
   std::shared_ptr<const BlockPattern> pattern_;
-  // Of each vertex (each block of the pattern), the element vectors (matrices) that add to it.
+  std::size_t matrix_size_;
+  int element_count_;
+  // Of each vertex, the element vectors that add to it.
   std::vector<int> vertex_starts_, vertex_sources_;
-  std::vector<int> block_starts_, block_sources_;
+  // Of each batch, the blocks of the pattern that its elements add to, and of each of these the matrices of
+  // the batch that do.
+  std::vector<int> batch_starts_, targets_, source_starts_, sources_;
 };
 
 }  // namespace lagomorph::sim

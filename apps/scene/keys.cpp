@@ -26,6 +26,7 @@ std::vector<std::string> element_choices() { return {"mesh", "linear", "quadrati
 std::vector<std::string> light_kinds() { return {"area", "sun"}; }
 std::vector<std::string> sky_models() { return {"gradient", "physical"}; }
 std::vector<std::string> hessian_choices() { return {"auto", "projected"}; }
+std::vector<std::string> linear_choices() { return {"auto", "cholmod", "cg"}; }
 
 void visit_time(sim::TimeSettings& t, KeyVisitor& v) {
   v.key({.name = "fps",
@@ -83,6 +84,15 @@ void visit_solver(sim::SolverSettings& s, KeyVisitor& v) {
                   "projected: always",
        .choices = hessian_choices},
       &s.hessian);
+  v.key(
+      {.name = "linear",
+       .part = simulation,
+       .meaning =
+           "how linear systems are solved. cg: conjugate gradients preconditioned by the diagonal's blocks; "
+           "cholmod: a factor a step, which preconditions its further systems; auto: cg while that is less "
+           "work",
+       .choices = linear_choices},
+      &s.linear);
   v.key({.name = "blas_threads",
          .bounds = between(1, 64),
          .part = simulation,

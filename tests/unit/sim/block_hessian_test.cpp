@@ -86,13 +86,17 @@ std::vector<int> nodes_of(const TetMesh& mesh) {
 }
 
 TEST(TetGather, AddsMatricesAsTripletsDo) {
-  const TetMesh mesh = ascending_cube(3);
+  const TetMesh mesh = ascending_cube(6);  // of several batches
   const auto pattern = pattern_of(mesh);
   const TetGather gather(nodes_of(mesh), 4, pattern);
   const std::vector<double> matrices = random_values(TetGather::matrix_size(4) * mesh.tets.size());
+  const auto fill = [&](int begin, int end, double* batch) {
+    const auto size = static_cast<std::ptrdiff_t>(TetGather::matrix_size(4));
+    std::copy(matrices.begin() + size * begin, matrices.begin() + size * end, batch);
+  };
   BlockHessian H(pattern);
-  gather.add_matrices(matrices, 2.0, H);
-  gather.add_matrices(matrices, 1.0, H);
+  gather.add_matrices(2.0, H, fill);
+  gather.add_matrices(1.0, H, fill);
   const SparseMatrix expected = by_triplets(mesh, matrices);
   EXPECT_LT((H.to_sparse() - 3.0 * expected).norm(), 1e-14 * expected.norm());
   H.set_zero();

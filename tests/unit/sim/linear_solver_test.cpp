@@ -6,32 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/sim/mesh_fixtures.h"
+#include "tests/unit/sim/systems.h"
 
 namespace lagomorph::sim {
 namespace linear_solver_test {
-
-/// A system on the cube's pattern: the graph's Laplacian in each coordinate, coupled at random, shifted by
-/// `shift` times the identity.
-BlockHessian system_on(const std::shared_ptr<const BlockPattern>& pattern, double shift) {
-  std::mt19937 random(2);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  BlockHessian H(pattern);
-  for (int j = 0; j < pattern->vertex_count(); ++j) {
-    H.block(pattern->find(j, j)) += shift * Mat3::Identity();
-    for (int k = pattern->starts()[static_cast<std::size_t>(j)];
-         k < pattern->starts()[static_cast<std::size_t>(j) + 1]; ++k) {
-      const int i = pattern->rows()[static_cast<std::size_t>(k)];
-      if (i == j) continue;
-      const Mat3 A = Mat3::NullaryExpr([&] { return uniform(random); });
-      const Mat3 B =
-          Mat3::NullaryExpr([&] { return uniform(random); });  // adds [A B]ᵀ[A B], positive semi-definite
-      H.block(pattern->find(i, i)) += A.transpose() * A;
-      H.block(pattern->find(j, j)) += B.transpose() * B;
-      H.block(k) += A.transpose() * B;
-    }
-  }
-  return H;
-}
 
 struct CubeSystem {
   TetMesh mesh = cube_mesh(3);
@@ -43,19 +21,13 @@ struct CubeSystem {
 
   explicit CubeSystem(const std::vector<int>& pinned) : CubeSystem(Pins(64, pinned)) {}
   explicit CubeSystem(const Pins& some) : pins(some) { solver.analyze(pattern, pins); }
-  /// x = Pᵀ (P H Pᵀ)⁻¹ P b with a dense factorization.
-  VecX expected(const BlockHessian& H) const {
-    if (pins.free_dofs() == 0) return VecX::Zero(b.size());
-    const SparseMatrix P = pins.matrix();
-    const Eigen::MatrixXd reduced = P * H.to_sparse() * SparseMatrix(P.transpose());
-    return P.transpose() * VecX(reduced.partialPivLu().solve(VecX(P * b)));
-  }
+  VecX expected(const BlockHessian& H) const { return dense_solution(H, pins, b); }
 };
 
 TEST(LinearSolver, SolvesAsADenseOneDoes) {
   for (const std::vector<int>& pinned : {std::vector<int>{}, {0, 1, 2, 3}, {63, 5, 17}}) {
     CubeSystem cube(pinned);
-    const BlockHessian H = system_on(cube.pattern, 0.1);
+    const BlockHessian H = random_system(cube.pattern, 0.1);
     ASSERT_EQ(cube.solver.factorize(H), FactorStatus::ok);
     VecX x;
     cube.solver.solve(cube.b, x);
@@ -73,7 +45,7 @@ TEST(LinearSolver, LeavesOutSingleCoordinates) {
   ASSERT_LT(cube.pins.free_vertices().size(), 64u);
   ASSERT_GT(cube.pins.free_dofs() % 3, 0);
   for (const double shift : {0.1, -3.0}) {
-    const BlockHessian H = system_on(cube.pattern, shift);
+    const BlockHessian H = random_system(cube.pattern, shift);
     ASSERT_EQ(shift > 0 ? cube.solver.factorize(H) : cube.solver.factorize_indefinite(H), FactorStatus::ok);
     VecX x;
     cube.solver.solve(cube.b, x);
@@ -86,7 +58,7 @@ TEST(LinearSolver, LeavesOutSingleCoordinates) {
 TEST(LinearSolver, FactorizesAgainWithOtherValues) {
   CubeSystem cube({0});
   for (const double shift : {1.0, 10.0, 0.3}) {
-    const BlockHessian H = system_on(cube.pattern, shift);
+    const BlockHessian H = random_system(cube.pattern, shift);
     ASSERT_EQ(cube.solver.factorize(H), FactorStatus::ok);
     VecX x;
     cube.solver.solve(cube.b, x);
@@ -98,10 +70,10 @@ TEST(LinearSolver, TellsAMatrixThatIsNotPositiveDefiniteSilentlyAndGoesOn) {
   CubeSystem cube({0});
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  EXPECT_EQ(cube.solver.factorize(system_on(cube.pattern, -3.0)), FactorStatus::not_positive_definite);
+  EXPECT_EQ(cube.solver.factorize(random_system(cube.pattern, -3.0)), FactorStatus::not_positive_definite);
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
-  const BlockHessian H = system_on(cube.pattern, 1.0);
+  const BlockHessian H = random_system(cube.pattern, 1.0);
   ASSERT_EQ(cube.solver.factorize(H), FactorStatus::ok);
   VecX x;
   cube.solver.solve(cube.b, x);
@@ -110,7 +82,7 @@ TEST(LinearSolver, TellsAMatrixThatIsNotPositiveDefiniteSilentlyAndGoesOn) {
 
 TEST(LinearSolver, FactorizesAnIndefiniteMatrixWhenAsked) {
   CubeSystem cube({0});
-  const BlockHessian H = system_on(cube.pattern, -3.0);
+  const BlockHessian H = random_system(cube.pattern, -3.0);
   ASSERT_EQ(cube.solver.factorize_indefinite(H), FactorStatus::ok);
   VecX x;
   cube.solver.solve(cube.b, x);
@@ -121,7 +93,7 @@ TEST(LinearSolver, HasNothingToSolveWhenAllIsPinned) {
   std::vector<int> all(64);
   for (int v = 0; v < 64; ++v) all[static_cast<std::size_t>(v)] = v;
   CubeSystem cube(all);
-  EXPECT_EQ(cube.solver.factorize(system_on(cube.pattern, -3.0)), FactorStatus::ok);
+  EXPECT_EQ(cube.solver.factorize(random_system(cube.pattern, -3.0)), FactorStatus::ok);
   VecX x;
   cube.solver.solve(cube.b, x);
   EXPECT_EQ(x, VecX::Zero(cube.b.size()));

@@ -117,6 +117,24 @@ TEST_P(NewtonOn, FindsTheSameMinimumWithProjectedHessians) {
   EXPECT_LT((exact - projected).cwiseAbs().maxCoeff(), 1e-11);
 }
 
+/// However its linear systems are solved, and however loosely, the minimum is the same.
+TEST_P(NewtonOn, FindsTheSameMinimumByEachSolver) {
+  const Model model = cube_model(GetParam());
+  const IncrementalPotential phi = step_from_rest(model, 1.0 / 30.0, Vec3(0, 1, 0.5));
+  std::vector<VecX> minima;
+  for (const char* const linear : {"cholmod", "cg", "auto"}) {
+    SolverSettings settings;
+    settings.tolerance = 1e-11;
+    settings.linear = linear;
+    VecX& q = minima.emplace_back(model.initial_state().q);
+    const NewtonReport report = Newton(model, settings).minimize(model, phi, q);
+    EXPECT_EQ(report.status, StepStatus::converged) << linear;
+    EXPECT_LE(report.iterations, 12) << linear;
+  }
+  EXPECT_LT((minima[0] - minima[1]).cwiseAbs().maxCoeff(), 1e-11);
+  EXPECT_LT((minima[0] - minima[2]).cwiseAbs().maxCoeff(), 1e-11);
+}
+
 /// Without gravity the largest of the parts that must cancel measures the residual.
 TEST_P(NewtonOn, ConvergesWithoutGravity) {
   const Model model = cube_model(GetParam(), Vec3::Zero());
@@ -179,11 +197,15 @@ TEST(Newton, RecoversFromInversionByProjecting) {
   LinearSolver solver(1);
   solver.analyze(model.pattern(), model.pins());
   ASSERT_EQ(solver.factorize(K), FactorStatus::not_positive_definite);
-  SolverSettings settings;
-  settings.tolerance = 1e-9;
-  const NewtonReport report = Newton(model, settings).minimize(model, IncrementalPotential{}, q);
-  EXPECT_EQ(report.status, StepStatus::converged);
-  EXPECT_GT(smallest_determinant(model, q), 0.0);
+  for (const char* const linear : {"auto", "cg"}) {
+    SolverSettings settings;
+    settings.tolerance = 1e-9;
+    settings.linear = linear;
+    VecX found = q;
+    const NewtonReport report = Newton(model, settings).minimize(model, IncrementalPotential{}, found);
+    EXPECT_EQ(report.status, StepStatus::converged) << linear;
+    EXPECT_GT(smallest_determinant(model, found), 0.0) << linear;
+  }
 }
 
 TEST(Newton, TellsWhenItsIterationsRunOut) {
@@ -236,6 +258,8 @@ TEST(Newton, TellsWhichSettingIsOutOfRange) {
   EXPECT_EQ(error([](S& s) { s.blas_threads = 0; }), "solver.blas_threads = 0 must be >= 1");
   EXPECT_EQ(error([](S& s) { s.hessian = "exact"; }),
             "unknown solver.hessian 'exact'; valid ones are auto, projected");
+  EXPECT_EQ(error([](S& s) { s.linear = "lu"; }),
+            "unknown solver.linear 'lu'; valid ones are auto, cholmod, cg");
 }
 
 }  // namespace newton_test
