@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sim/parallel.h"
+#include "sim/profile.h"
 #include "sim/simd.h"
 
 namespace lagomorph::sim {
@@ -232,6 +233,7 @@ private:
 };
 
 void BlockJacobiCg::analyze(std::shared_ptr<const BlockPattern> pattern, const Pins& pins) {
+  const Timed timed(Stage::analysis);
   pattern_ = std::move(pattern);
   const std::vector<int> order = cuthill_mckee(graph_of(*pattern_, pins));
   std::vector<int> place(order.size());
@@ -273,6 +275,7 @@ void BlockJacobiCg::analyze(std::shared_ptr<const BlockPattern> pattern, const P
 }
 
 bool BlockJacobiCg::set_matrix(const BlockHessian& H) {
+  const Timed timed(Stage::solve);
   std::vector<char> is_bad(static_cast<std::size_t>(System::pieces(*this)), 0);
   parallel_for(System::pieces(*this), 1, [&](int first, int last) {
     for (int piece = first; piece < last; ++piece) {
@@ -309,6 +312,7 @@ bool BlockJacobiCg::set_row(const BlockHessian& H, std::size_t row) {
 }
 
 CgReport BlockJacobiCg::solve(const VecX& b, const CgLimits& limits, VecX& x) {
+  const Timed timed(Stage::solve);
   VecX rhs(3 * static_cast<Eigen::Index>(vertices_.size())), solution;
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     for (int k = 0; k < 3; ++k)

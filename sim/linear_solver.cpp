@@ -12,6 +12,7 @@
 #include <omp.h>
 
 #include "sim/parallel.h"
+#include "sim/profile.h"
 
 namespace lagomorph::sim {
 
@@ -238,6 +239,7 @@ void LinearSolver::Implementation::fill(const BlockHessian& H) {
 }
 
 FactorStatus LinearSolver::Implementation::factorize(const BlockHessian& H, cholmod_factor* factor) {
+  const Timed timed(Stage::factorization);
   const Threads threads(blas_threads);
   solving = nullptr;
   fill(H);
@@ -258,6 +260,7 @@ LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 
 void LinearSolver::analyze(std::shared_ptr<const BlockPattern> pattern, const Pins& pins) {
   Implementation& s = *implementation_;
+  const Timed timed(Stage::analysis);
   s.free_factors();
   s.pattern = std::move(pattern);
   s.order.clear();
@@ -289,6 +292,7 @@ void LinearSolver::solve(const VecX& b, VecX& x) {
   x.setZero(b.size());
   if (s.order.empty()) return;
   if (s.solving == nullptr) throw std::logic_error("LinearSolver::solve without a factor");
+  const Timed timed(Stage::solve);
   const Threads threads(s.blas_threads);
   s.each_coordinate([&](int place, int dof) { s.rhs[place] = b[dof]; });
   cholmod_dense rhs{};

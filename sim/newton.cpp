@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "sim/error.h"
+#include "sim/profile.h"
 #include "sim/rigid_motion.h"
 #include "sim/text.h"
 
@@ -84,11 +85,15 @@ Newton::Point Newton::evaluate(const Model& model, const IncrementalPotential& p
   p.q = std::move(q);
   const VecX x = position_of_V(phi, p.q);
   VecX forces = VecX::Zero(x.size());
+  {
+    const Timed timed(Stage::gradient);
+    for (const auto& term : model.energies()) term->add_gradient(x, 1.0, forces);
+  }
+  const Timed timed(Stage::energy);
   for (const auto& term : model.energies()) {
     const double value = term->value(x);
     p.value += value / phi.a;
     p.value_scale += (std::abs(value) + term->value_scale(x)) / phi.a;
-    term->add_gradient(x, 1.0, forces);
   }
   if (phi.f.size() != 0) {
     forces -= phi.f;
@@ -118,6 +123,7 @@ Newton::Point Newton::evaluate(const Model& model, const IncrementalPotential& p
 
 void Newton::assemble(const Model& model, const IncrementalPotential& phi, const VecX& q, HessianKind kind,
                       BlockHessian& H) const {
+  const Timed timed(Stage::hessian);
   const VecX x = position_of_V(phi, q);
   H.set_zero();
   for (const auto& term : model.energies()) term->add_hessian(x, phi.a, kind, H);

@@ -228,6 +228,8 @@ constexpr OptionRow option_rows[] = {
      [](Options& o, const std::string&) { o.is_static = true; }},
     {"--log-newton", nullptr, " run simulate ", "tell each Newton iteration in RUN/newton.csv",
      [](Options& o, const std::string&) { o.log_newton = true; }},
+    {"--profile", nullptr, " run simulate render ", "print what the time went into, stage by stage",
+     [](Options& o, const std::string&) { o.profile = true; }},
     {"--force", nullptr, " run simulate render ", "make anew what is there but does not match the scene",
      [](Options& o, const std::string&) { o.force = true; }},
     {"--preset", "NAME", " check ", "exact, lsb, render or mc, instead of the golden's limits", apply_preset},

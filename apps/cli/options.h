@@ -36,6 +36,7 @@ struct Options {
   std::string codec = "h264";                   // --codec
   bool is_static = false;                       // --static: the equilibrium instead of the motion
   bool log_newton = false;                      // --log-newton
+  bool profile = false;                         // --profile
   bool force = false;                           // --force
   bool quiet = false;                           // --quiet
   bool json = false;                            // --json

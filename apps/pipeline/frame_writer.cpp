@@ -13,6 +13,7 @@
 #include "apps/run/state_file.h"
 #include "render/exr.h"
 #include "render/png.h"
+#include "sim/profile.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -68,6 +69,7 @@ void FrameWriter::write(const DrawnFrame& frame) const {
 }
 
 StateRecord FrameWriter::write_state(const sim::State& state, StateRecord record) const {
+  const sim::Timed timed(sim::Stage::write);
   const std::string bytes = encode_state(state);
   write_file(paths_.state(state.frame), bytes);
   record.sha256 = sha256(bytes);
@@ -78,20 +80,31 @@ StateRecord FrameWriter::write_state(const sim::State& state, StateRecord record
 PictureRecord FrameWriter::write_picture(const DrawnFrame& drawn, const StateRecord& told) const {
   const render::Image& image = *drawn.image;
   const int frame = drawn.of.job.frame;
+  const auto timed = [](sim::Stage stage, auto&& work) {
+    const sim::Timed timer(stage);
+    return work();
+  };
+  const auto picture =
+      timed(sim::Stage::overlays, [&] { return views_.finish(image, drawn.of.state, told); });
   const std::string png =
-      render::encode_png(views_.finish(image, drawn.of.state, told), scene_.render.png_compression);
-  write_file(paths_.picture(frame), png);
+      timed(sim::Stage::encode, [&] { return render::encode_png(picture, scene_.render.png_compression); });
   PictureRecord record;
-  record.sha256 = sha256(png);
+  record.sha256 = timed(sim::Stage::write, [&] {
+    write_file(paths_.picture(frame), png);
+    return sha256(png);
+  });
   record.made_by = identity_.picture_hash();
   if (scene_.render.backend == "path") record.clamp = static_cast<double>(scene_.render.path.clamp);
   views_.tell(record);
   const bool whole = scene_.render.region.empty();
   const render::Image part = whole ? render::Image() : cropped(image, scene_.render.drawn());
   for (const std::string& file : channel_files(scene_.render)) {
-    const std::string bytes = encode_file(file, whole ? image : part, scene_.render);
-    write_file(paths_.channel(file, frame), bytes);
-    record.channels[file] = sha256(bytes);
+    const std::string bytes =
+        timed(sim::Stage::encode, [&] { return encode_file(file, whole ? image : part, scene_.render); });
+    record.channels[file] = timed(sim::Stage::write, [&] {
+      write_file(paths_.channel(file, frame), bytes);
+      return sha256(bytes);
+    });
   }
   return record;
 }

@@ -14,6 +14,7 @@
 #include "apps/pipeline/stop.h"
 #include "apps/pipeline/stopwatch.h"
 #include "apps/pipeline/workers.h"
+#include "sim/profile.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -38,6 +39,12 @@ private:
   std::counting_semaphore<> free_;
 };
 
+template <class T>
+std::optional<T> next_of(BoundedQueue<T>& queue, sim::Stage waiting) {
+  const sim::Timed timed(waiting);
+  return queue.pop();
+}
+
 DrawnFrame draw(const PipelineInput& in, StateFrame frame) {
   DrawnFrame drawn{.of = std::move(frame), .image = {}, .seconds = 0.0};
   if (!drawn.of.job.draw || stop_asked()) return drawn;  // a stopped run still keeps the state
@@ -46,7 +53,11 @@ DrawnFrame draw(const PipelineInput& in, StateFrame frame) {
   if (drawn.of.before)
     motion.emplace(std::move(*drawn.of.before), static_cast<double>(in.scene.camera.shutter));
   const sim::VecX& q = drawn.of.state.q;
-  move_meshes(*in.renderer, in.surfaces, q, motion ? &*motion : nullptr);
+  {
+    const sim::Timed timed(sim::Stage::surface);
+    move_meshes(*in.renderer, in.surfaces, q, motion ? &*motion : nullptr);
+  }
+  const sim::Timed timed(sim::Stage::draw);
   drawn.image = in.views.draw(*in.renderer, {drawn.of.job.frame, drawn.of.state.t}, q,
                               motion ? &motion->before : nullptr);
   drawn.seconds = watch.seconds();
@@ -72,13 +83,15 @@ PipelineResult run_pipeline(const PipelineInput& in, Progress& progress) {
     for (const FrameJob& job : in.jobs) {
       if (stop_asked()) break;
       std::optional<StateFrame> frame = turns.take([&] { return states.next(job); });
-      if (!frame || !to_draw.push(std::move(*frame))) break;
+      if (!frame) break;
+      const sim::Timed timed(sim::Stage::wait_to_simulate);
+      if (!to_draw.push(std::move(*frame))) break;
     }
     to_draw.close();
   });
   for (int i = 0; i < std::clamp(in.threads - 1, 1, most_writers); ++i) {
     workers.start([&] {  // 3. and it is written, with its record, while the next ones are on their way.
-      while (const std::optional<DrawnFrame> frame = to_write.pop()) {
+      while (const std::optional<DrawnFrame> frame = next_of(to_write, sim::Stage::wait_to_write)) {
         turns.take([&] { writer.write(*frame); });
         frames_done += frame->of.job.draw && !frame->image ? 0 : 1;
         states_made += frame->of.made ? 1 : 0;
@@ -88,7 +101,7 @@ PipelineResult run_pipeline(const PipelineInput& in, Progress& progress) {
     });
   }
   workers.guard([&] {  // 2. the renderer draws it in the thread that made it,
-    while (std::optional<StateFrame> frame = to_draw.pop()) {
+    while (std::optional<StateFrame> frame = next_of(to_draw, sim::Stage::wait_to_draw)) {
       if (!to_write.push(turns.take([&] { return draw(in, std::move(*frame)); }))) break;
     }
     to_write.close();

@@ -21,6 +21,7 @@
 #include "apps/run/disk_space.h"
 #include "apps/run/gather.h"
 #include "apps/run/inputs.h"
+#include "apps/run/profile_table.h"
 #include "apps/run/result.h"
 #include "apps/run/run_json.h"
 #include "apps/run/run_video.h"
@@ -65,7 +66,7 @@ RunInfo new_info(const Production& p) {
   if (!p.contents.info) return info;
   const RunInfo& old = *p.contents.info;
   info.video = old.video;
-  for (const char* key : {"mesh", "machine", "dependencies"}) {
+  for (const char* key : {"mesh", "machine", "dependencies", "seconds"}) {
     if (p.jobs.empty() && old.about.contains(key)) info.about[key] = old.about[key];
   }
   return info;
@@ -234,6 +235,7 @@ ExitStatus make_all(Production& p, RunResult& result, Progress& progress) {
     made.emplace();
   }
   result.begun = true;
+  if (!p.jobs.empty()) info.about["seconds"] = stage_seconds(sim::profile());
   result.records = gather_after(p, info, *made);
   result.states_made = made->states;
   result.pictures_made = made->pictures;
@@ -270,6 +272,7 @@ ExitStatus produce(Production p, Progress& progress) {
     if (status == ExitStatus::done) {
       tell("done", "");
       progress.note(result_text(result));
+      if (p.options.profile) std::fputs(profile_table(sim::profile(), result.seconds).c_str(), stderr);
     } else {
       const std::string line =
           fmt::format("interrupted with {} of {} frames there; the same command goes on from there",

@@ -9,6 +9,7 @@
 #include "apps/pipeline/stopwatch.h"
 #include "apps/run/record.h"
 #include "apps/run/state_file.h"
+#include "sim/profile.h"
 
 namespace lagomorph::apps {
 
@@ -24,6 +25,7 @@ sim::State StateSource::read(int frame) const {
 }
 
 bool StateSource::simulate(int frame, sim::State& state, StateRecord& record) {
+  const sim::Timed timed(sim::Stage::simulation);
   const Stopwatch watch;
   if (frame == 0) {
     state = integrator_.initial_state(model_);

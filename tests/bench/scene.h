@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,16 +15,23 @@
 namespace lagomorph::bench {
 
 struct Swing {
-  /// `tets`: "5k" or "25k", a mesh of assets/meshes.
-  explicit Swing(const std::string& tets)
+  /// `name`: "5k" or "25k", a mesh of assets/meshes; with "_soft", of young = 1e5 in steps of 0.01 s.
+  explicit Swing(const std::string& name)
       : scene(apps::load_scene(std::filesystem::path(LAGOMORPH_SOURCE_DIR) / "assets/scenes/bunny.toml",
-                               std::vector<std::string>{"body.0.mesh=../meshes/bunny_" + tets + ".msh"})),
+                               changes(name))),
         model(apps::build_model(scene, progress)),
         integrator(sim::make_integrator(scene.time, scene.solver, model)),
         state(model.initial_state()) {
     for (int frame = 0; frame < 16; ++frame) {
       sim::advance_frame(model, *integrator, scene.time, scene.solver, state);
     }
+  }
+  static std::vector<std::string> changes(const std::string& name) {
+    std::vector<std::string> set = {"body.0.mesh=../meshes/bunny_" + name.substr(0, name.find('_')) + ".msh"};
+    if (name.ends_with("_soft"))
+      set.insert(set.end(), {"body.0.material.young=1e5", "body.0.material.poisson=0.3", "time.fps=100",
+                             "time.substeps=1"});
+    return set;
   }
   double h() const { return 1.0 / (scene.time.fps * scene.time.substeps); }
 
@@ -35,11 +43,9 @@ struct Swing {
 };
 
 /// Made once and kept, since it takes longer than what is timed.
-inline Swing& swing(const std::string& tets) {
-  static Swing small("5k");
-  if (tets == "5k") return small;
-  static Swing large("25k");
-  return large;
+inline Swing& swing(const std::string& name) {
+  static std::map<std::string, Swing> made;
+  return made.try_emplace(name, name).first->second;
 }
 
 }  // namespace lagomorph::bench

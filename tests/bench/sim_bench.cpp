@@ -4,7 +4,10 @@
 
 #include <benchmark/benchmark.h>
 
+#include "sim/conjugate_gradient.h"
 #include "sim/linear_solver.h"
+#include "sim/materials/stable_neo_hookean.h"
+#include "tests/bench/course_method.h"
 #include "tests/bench/scene.h"
 
 /// The parts of one Newton iteration, and whole steps.
@@ -80,6 +83,51 @@ void step(benchmark::State& timing, const char* tets) {
   timing.counters["newton"] = iterations;
 }
 
+/// The same step by the course's method. The ratio to `step` is the claim; its own set-up is in it, some
+/// percent.
+void course(benchmark::State& timing, const char* tets) {
+  Swing& s = swing(tets);
+  const sim::MaterialSettings& material = s.scene.body.front().physics.material;
+  const auto psi = sim::StableNeoHookean::from_settings(material, "body");
+  int iterations = 0;
+  for (auto _ : timing) {
+    sim::State state = s.state;
+    iterations = course_step(s.model, psi.mu, psi.lambda, s.scene.solver.tolerance, s.h(), state);
+    if (iterations == 0) timing.SkipWithError("not converged");
+  }
+  timing.counters["newton"] = iterations;
+}
+
+void step_by(benchmark::State& timing, const char* tets, const char* linear) {
+  Swing& s = swing(tets);
+  sim::SolverSettings settings = s.scene.solver;
+  settings.linear = linear;
+  const auto integrator = sim::make_integrator(s.scene.time, settings, s.model);
+  int iterations = 0;
+  for (auto _ : timing) {
+    sim::State state = s.state;
+    const sim::StepReport report = integrator->step(s.model, state, s.h());
+    if (!sim::is_good(report.status)) timing.SkipWithError("not converged");
+    iterations = report.newton_iterations;
+  }
+  timing.counters["newton"] = iterations;
+}
+
+/// Conjugate gradients preconditioned by the diagonal's blocks, to what a Newton step asks of them first.
+void cg_solve(benchmark::State& timing, const char* tets) {
+  const Swing& s = swing(tets);
+  const sim::BlockHessian H = system(s);
+  sim::BlockJacobiCg cg;
+  cg.analyze(s.model.pattern(), s.model.pins());
+  sim::VecX x;
+  int iterations = 0;
+  for (auto _ : timing) {
+    cg.set_matrix(H);
+    iterations = cg.solve(s.model.gravity_force(), {1e-3, 10000}, x).iterations;
+  }
+  timing.counters["iterations"] = iterations;
+}
+
 void surface(benchmark::State& timing, const char* tets) {
   Swing& s = swing(tets);
   const std::vector<sim::Surface> surfaces = apps::build_surfaces(s.scene, s.model, s.progress);
@@ -94,7 +142,7 @@ void add(const char* name, const char* tets,
 }
 
 const bool registered = [] {
-  for (const char* const tets : {"5k", "25k"}) {
+  for (const char* const tets : {"5k", "25k", "5k_soft", "25k_soft"}) {
     add("value", tets, value);
     add("gradient", tets, gradient);
     add("exact_hessian", tets, hessian<sim::HessianKind::exact>);
@@ -102,7 +150,12 @@ const bool registered = [] {
     add("analysis", tets, analysis);
     add("factorization", tets, factorization);
     add("solve", tets, solve);
+    add("cg_solve", tets, cg_solve);
     add("step", tets, step);
+    for (const char* const linear : {"cholmod", "cg"})
+      add((std::string("step_") + linear).c_str(), tets,
+          [linear](benchmark::State& timing, const char* of) { step_by(timing, of, linear); });
+    add("course_step", tets, course);
     add("surface", tets, surface);
   }
   return true;
