@@ -192,7 +192,7 @@ TEST(CameraMoves, WrongKeysAreTold) {
             "left, right, top, bottom, isometric");
   EXPECT_EQ(error_of(key + "frame = 0\nposition = [0, 0, 3]\nlook_at = [0, 0, 0]\n" + key +
                      "frame = 4\nposition = [0, 0, -3]\n[camera]\ninterpolation = \"linear\""),
-            "a.toml:8:1: in frame 2 camera.position and camera.look_at are the same point");
+            "a.toml:4:11: in frame 2 camera.position and camera.look_at are the same point");
 }
 
 }  // namespace camera_moves_test

@@ -163,7 +163,7 @@ TEST(WrongScene, Together) {
        Wrong{"[camera]\nposition = [0, 1, 0]\nlook_at = [0, 1, 0]",
              "a.toml:3:11: camera.position and camera.look_at are the same point"},
        Wrong{"[camera]\nposition = [0, 3, 0]\nlook_at = [0, 1, 0]",
-             "a.toml:1:1: camera.up must not be along the view"},
+             "a.toml:3:11: camera.up must not be along the view"},
        Wrong{"[camera]\nup = [0, 0, 0]", "a.toml:2:6: camera.up must not be 0"},
        Wrong{"[ground]\nradius = 2",
              "a.toml:2:10: ground.fade_start = 3 must be less than ground.radius = 2"},
