@@ -153,6 +153,8 @@ std::vector<std::string> Overlays::remarks() const {
     remarks.emplace_back("glyphs.loads has no effect: no body has a load");
   for (std::size_t i = 0; i < scene_.body.size(); ++i) {
     const BodyDesc& body = scene_.body[i];
+    if (scene_.clip && body.surface.subdivide > 0)
+      remarks.push_back(fmt::format("body.{}.surface.subdivide has no effect: clip shows the tets", i));
     if (!body.surface.fill && !body.wireframe.show) {
       remarks.push_back(fmt::format(
           "body.{}.surface.fill = false without body.{}.wireframe.show: the surface of '{}' is not drawn", i,

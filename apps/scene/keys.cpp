@@ -123,6 +123,12 @@ void visit_surface(SurfaceDesc& s, KeyVisitor& v) {
          .meaning = "how far a fine vertex may lie outside of the tets, as a fraction of the body's "
                     "bounding-box diagonal"},
         &s.max_outside);
+  v.key({.name = "subdivide",
+         .bounds = between(0, 4),
+         .meaning =
+             "times the tets' boundary or the fine mesh is subdivided by Loop's scheme, each into four times "
+             "the triangles: a smooth surface of a coarse mesh"},
+        &s.subdivide);
   v.key({.name = "smooth", .meaning = "smooth normals; false: one a triangle"}, &s.smooth);
   v.key(
       {.name = "flip", .meaning = "its other side is the outside: for meshes whose triangles are inside out"},
