@@ -1,5 +1,6 @@
 #include "apps/pipeline/production.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -25,6 +26,8 @@
 #include "apps/run/run_json.h"
 #include "apps/run/run_video.h"
 #include "apps/run/state_file.h"
+#include "render/channel_png.h"
+#include "render/channels.h"
 #include "sim/integrator.h"
 #include "sim/mesh_io.h"
 
@@ -159,6 +162,22 @@ PipelineResult simulate_then_draw(Production& p, const sim::Model& model, Views&
   return {made.frames + drawn.frames, made.states, drawn.pictures, made.failure, drawn.error, false};
 }
 
+/// Numbers of triangles that pictures would have no room for.
+void check_png_ids(const SceneDesc& scene, const std::vector<sim::Surface>& surfaces) {
+  const std::vector<std::string>& channels = scene.render.channels;
+  if (scene.render.channel_format != "png" ||
+      std::find(channels.begin(), channels.end(), render::triangle_id_channel) == channels.end())
+    return;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    if (surfaces[i].triangles().size() <= static_cast<std::size_t>(render::most_png_number)) continue;
+    throw Error(
+        ExitStatus::wrong_input,
+        fmt::format("render.channels: 'triangle_id' of the {} triangles of '{}' does not fit into the 16 "
+                    "bits of a PNG, which tell {} apart; give render.channel_format = \"npy\" or \"exr\"",
+                    surfaces[i].triangles().size(), scene.body[i].physics.name, render::most_png_number));
+  }
+}
+
 /// Makes the missing frames, from the model on. Up to take_folder nothing is written; nullopt when stopped
 /// there.
 std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress& progress) {
@@ -166,6 +185,7 @@ std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress
   const std::vector<sim::Surface> surfaces = drawn_surfaces(p.scene, model, progress);
   Views views(p.scene, model, surfaces);
   if (p.renderer) {
+    check_png_ids(p.scene, surfaces);
     const render::RenderScene drawn = build_render_scene(p.scene, model, surfaces);
     for (const std::string& remark : render::renderer_remarks(p.scene.render, p.scene.camera, drawn))
       progress.note(remark);

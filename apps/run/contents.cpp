@@ -114,7 +114,7 @@ void remove_unmatched(const RunPaths& paths, const RunContents& contents) {
   remove_frames(paths.pictures(), ".png", has_picture);
   for (const fs::path& folder : channel_folders(paths)) {
     const std::string channel = folder.filename().string();
-    for (const std::string& file : {channel, channel + exr_extension}) {
+    for (const std::string& file : {channel, channel + exr_extension, channel + png_extension}) {
       remove_frames(folder, paths.channel(file, 0).extension().string(), [&](int frame) {
         return has_picture(frame) && matching.at(frame).picture->channels.contains(file);
       });

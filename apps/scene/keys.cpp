@@ -302,7 +302,9 @@ void visit_render(render::RenderSettings& r, KeyVisitor& v) {
          .choices = render::channel_names},
         &r.channels);
   v.key({.name = "channel_format",
-         .meaning = "of their files: NumPy arrays, OpenEXR, or one OpenEXR for the picture and all of them",
+         .meaning =
+             "of their files: NumPy arrays, OpenEXR, one OpenEXR for the picture and all of them, or 16-bit "
+             "PNG of those that fit",
          .choices = channel_formats},
         &r.channel_format);
   v.key({.name = "transparent",
