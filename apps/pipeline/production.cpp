@@ -26,6 +26,7 @@
 #include "apps/run/run_json.h"
 #include "apps/run/run_video.h"
 #include "apps/run/state_file.h"
+#include "apps/scene/idle_keys.h"
 #include "render/channel_png.h"
 #include "render/channels.h"
 #include "sim/integrator.h"
@@ -190,6 +191,12 @@ std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress
     for (const std::string& remark : render::renderer_remarks(p.scene.render, p.scene.camera, drawn))
       progress.note(remark);
     for (const std::string& remark : views.remarks()) progress.note(remark);
+    SceneDesc given = p.scene;
+    if (p.options.half) {  // its own doing
+      given.render.samples = render::RenderSettings().samples;
+      given.render.path.min_samples = render::PathSettings().min_samples;
+    }
+    for (const std::string& line : idle_keys(given)) progress.note(line);
     p.renderer->set_scene(drawn);
   }
   const auto integrator = sim::make_integrator(p.scene.time, p.scene.solver, model);
