@@ -279,6 +279,22 @@ ExitStatus make_all(Production& p, RunResult& result, Progress& progress) {
   return ExitStatus::done;
 }
 
+/// Of those asked for: states, and pictures where some are drawn.
+std::string what_is_there(const Production& p, const RunResult& result) {
+  int frames = 0, pictures = 0;
+  for (int frame = p.frames.first; frame <= p.frames.last; frame += p.frames.every) {
+    const auto found = result.records.find(frame);
+    if (found == result.records.end()) continue;
+    ++frames;
+    pictures += found->second.picture ? 1 : 0;
+  }
+  const auto of_all = [&](int n, const char* what) {
+    return fmt::format("{} of {} {}{}", n, p.frames.count(), what, p.frames.count() == 1 ? "" : "s");
+  };
+  if (p.states != nullptr) return of_all(pictures, "picture");
+  return of_all(frames, "frame") + (p.renderer ? fmt::format(" and {}", of_all(pictures, "picture")) : "");
+}
+
 }  // namespace
 
 ExitStatus produce(Production p, Progress& progress) {
@@ -298,9 +314,8 @@ ExitStatus produce(Production p, Progress& progress) {
       tell("done", "");
       progress.note(result_text(result));
     } else {
-      const std::string line =
-          fmt::format("interrupted with {} of {} frames there; the same command goes on from there",
-                      result.records.size(), p.scene.time.frames);
+      const std::string line = fmt::format("interrupted with {} there; the same command goes on from there",
+                                           what_is_there(p, result));
       tell("interrupted", line);
       std::fprintf(stderr, "lagomorph: %s\n", line.c_str());
     }

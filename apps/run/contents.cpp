@@ -95,8 +95,10 @@ void refuse_others(const RunPaths& paths, const RunContents& contents, const Ide
       fmt::format(
           "{}: is another run: {}; --force makes anew what does not match ({}), --out writes elsewhere",
           paths.root().string(), text,
-          contents.other_states > 0 ? fmt::format("{} states and their pictures", contents.other_states)
-                                    : fmt::format("{} pictures", contents.other_pictures)));
+          contents.other_states == 1     ? "1 state and its picture"
+          : contents.other_states > 0    ? fmt::format("{} states and their pictures", contents.other_states)
+          : contents.other_pictures == 1 ? "1 picture"
+                                         : fmt::format("{} pictures", contents.other_pictures)));
 }
 
 void remove_unmatched(const RunPaths& paths, const RunContents& contents) {
