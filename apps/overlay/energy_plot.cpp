@@ -112,9 +112,9 @@ void draw_legend(render::Picture& picture, const PlotLayout& l) {
   gap /= static_cast<double>(l.columns - 1);
   double x = left;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    const std::size_t column = i % l.columns;
+    const std::size_t column = i % l.columns, row = i / l.columns;
     if (column == 0) x = left;
-    const double y = l.plate.top + l.pad() + 2.9 * l.text + l.row() * static_cast<double>(i / l.columns);
+    const double y = l.plate.top + l.pad() + 2.9 * l.text + l.row() * static_cast<double>(row);
     const std::array<Segment, 1> sample = {{{{x, y - 0.5 * l.text}, {x + 1.5 * l.text, y - 0.5 * l.text}}}};
     draw_strokes(picture, sample, std::max(1.5, 0.22 * l.text), curves[i].color);
     draw_text(picture, x + 2.2 * l.text, y, curves[i].name, {.height = l.text, .color = plate_ink});
