@@ -48,6 +48,9 @@ inline constexpr char statistics_channel[] = "tile_statistics";
 inline constexpr int statistics_cell = 8;  // [pixels]
 inline constexpr int statistics_components = 8;
 
+/// How a channel's values stand in a PNG, where they fit: see channel_png.h.
+enum class PngForm { none, unit_vector, color, part, id, count };
+
 /// A row of the one table of channels.
 struct ChannelKind {
   const char* name;
@@ -56,6 +59,7 @@ struct ChannelKind {
   int cell = 1;             // side of the square that has its own values [pixels]
   bool path_only = false;
   bool is_layer = true;  // OpenEXR files call it <name>.<letter>; false: by the letter alone
+  PngForm png = PngForm::none;
 };
 std::span<const ChannelKind> channel_kinds();
 std::vector<std::string> channel_names();

@@ -67,8 +67,9 @@ std::vector<std::string> renderer_remarks(const RenderSettings& settings, const 
     remarks.push_back("render.path.clamp = " + value +
                       ": indirect light above it is cut, so that pictures are somewhat too dark");
   }
-  if (settings.channel_format == "exr" && settings.channels.empty())
-    remarks.emplace_back("render.channel_format = exr has no effect without render.channels");
+  if ((settings.channel_format == "exr" || settings.channel_format == "png") && settings.channels.empty())
+    remarks.push_back("render.channel_format = " + settings.channel_format +
+                      " has no effect without render.channels");
   for (std::string& remark : remarks) remark = settings.backend + ": " + remark;
   return remarks;
 }

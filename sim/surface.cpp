@@ -10,6 +10,7 @@
 #include "sim/error.h"
 #include "sim/mesh_topology.h"
 #include "sim/point_location.h"
+#include "sim/subdivision.h"
 #include "sim/text.h"
 
 namespace lagomorph::sim {
@@ -139,6 +140,20 @@ Surface Surface::embedded(const TetMesh& mesh, int body, const TriMesh& fine, do
   surface.first_cut_vertex_ = static_cast<int>(count);
   surface.W_.resize(static_cast<Eigen::Index>(count), mesh.vertex_count());
   surface.W_.setFromTriplets(entries.begin(), entries.end());
+  return surface;
+}
+
+Surface Surface::subdivided(int levels) const {
+  Subdivision fine = loop_subdivision(triangles_, vertex_count(), levels);
+  Surface surface;
+  surface.triangles_ = std::move(fine.triangles);
+  surface.coarse_edges_ = std::move(fine.edges);
+  surface.open_edges_ = fine.open_edges;
+  surface.crease_edges_ = fine.crease_edges;
+  surface.W_ = fine.stencil * W_;
+  surface.first_cut_vertex_ = surface.vertex_count();
+  surface.outside_count_ = outside_count_;
+  surface.outside_ = outside_;
   return surface;
 }
 

@@ -65,6 +65,12 @@ bool moves(const CameraDesc& c) {
   return !c.key.empty() || c.turntable.turns || c.turntable.period || c.follow != "none";
 }
 
+/// Whether some key changes how much it sees.
+bool zooms(const CameraDesc& c) {
+  return std::any_of(c.key.begin(), c.key.end(),
+                     [](const CameraKey& k) { return k.fov || k.orthographic || k.zoom; });
+}
+
 /// A file a frame, and for vtu the list of their times. False: asked to stop.
 bool write_frames(const ExportedSequence& sequence, const ExportFormat& format, const fs::path& out,
                   std::vector<std::string>& files) {
@@ -102,16 +108,17 @@ ExitStatus export_command(const Options& options) {
   const auto state = [&](int frame) {
     return read_state(run.state(frame), frame, scene.time.fps, model.mesh().vertex_count());
   };
-  ExportedScene exported{scene, model, build_surfaces(scene, model, progress), fields, scene.camera};
+  ExportedScene exported{scene, model, build_surfaces(scene, model, progress), fields, scene.camera, {}};
+  std::optional<CameraRig> rig;
   if (format.sequence != nullptr) {
-    CameraRig rig(scene, model, exported.surfaces, scene.render.width, scene.render.height);
-    if (rig.needs_all_states())
-      for (const auto& [frame, record] : states.records()) rig.see(state(frame).q);
-    exported.camera = rig.settings(frames.first, state(frames.first).q);
-    if (moves(scene.camera)) {
-      progress.note(
-          fmt::format("the camera stands still in a .{}, as it is in frame {}", format.name, frames.first));
-    }
+    rig.emplace(scene, model, exported.surfaces, scene.render.width, scene.render.height);
+    if (rig->needs_all_states())
+      for (const auto& [frame, record] : states.records()) rig->see(state(frame).q);
+    exported.camera = rig->settings(frames.first, state(frames.first).q);
+    if (moves(scene.camera) && frames.last > frames.first)
+      exported.moving_camera = [&rig](const sim::State& s) { return rig->settings(s.frame, s.q); };
+    if (std::string_view(format.name) == "gltf" && zooms(scene.camera))
+      progress.note(fmt::format("the camera keeps its field of view of frame {} in a .glb", frames.first));
   }
   const fs::path out = options.out.value_or(run.root() / "export");
   remove_leftovers(out);
@@ -139,7 +146,8 @@ ExitStatus export_command(const Options& options) {
                                    {"files", files}};
     print(json.dump() + "\n");
   } else if (!options.quiet) {
-    print(fmt::format("{} frames as {} in {}\n", sequence.count(), format.extension,
+    print(fmt::format("{} frame{} as {} in {}\n", sequence.count(), sequence.count() == 1 ? "" : "s",
+                      format.extension,
                       format.sequence != nullptr ? (out / files.back()).string() : out.string()));
   }
   return ExitStatus::done;

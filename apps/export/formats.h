@@ -18,9 +18,10 @@ namespace lagomorph::apps {
 struct ExportedScene {
   const SceneDesc& desc;
   const sim::Model& model;
-  std::vector<sim::Surface> surfaces;  // what is drawn of each body
-  std::vector<std::string> fields;     // names in sim::field_table()
-  render::CameraSettings camera;       // that of the first frame
+  std::vector<sim::Surface> surfaces;                                      // what is drawn of each body
+  std::vector<std::string> fields;                                         // names in sim::field_table()
+  render::CameraSettings camera;                                           // that of the first frame
+  std::function<render::CameraSettings(const sim::State&)> moving_camera;  // none: it stands still
 };
 
 /// A run of frames, whose states are read as they are asked for: one in memory at a time.

@@ -62,11 +62,21 @@ void write_animation(FileStream& out, int count, double fps) {
   }
 }
 
+/// Positions, then rotations, each on the side of the one before: what is between them is the short way.
+void write_camera_track(FileStream& out, std::vector<CameraPose>& poses) {
+  for (const CameraPose& pose : poses) out.write(bytes_of(std::vector<render::Vec3>{pose.position}));
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    Eigen::Quaternionf& r = poses[k].rotation;
+    if (k > 0 && r.dot(poses[k - 1].rotation) < 0.0F) r.coeffs() = -r.coeffs();
+    out.write(bytes_of(std::vector<float>{r.x(), r.y(), r.z(), r.w()}));
+  }
+}
+
 }  // namespace
 
 bool write_gltf(const ExportedSequence& sequence, const std::filesystem::path& file) {
   const std::vector<MovingMesh> meshes = moving_meshes(sequence.scene);
-  const GltfLayout layout(meshes, sequence.count());
+  const GltfLayout layout(meshes, sequence.count(), sequence.scene.moving_camera != nullptr);
   constexpr std::uint64_t limit = std::numeric_limits<std::uint32_t>::max();
   const auto check_size = [&](std::uint64_t size) {
     if (size > limit)
@@ -80,7 +90,9 @@ bool write_gltf(const ExportedSequence& sequence, const std::filesystem::path& f
   sequence.begin(2);
   std::vector<std::vector<Extent>> extents(meshes.size());  // of each body, a frame
   Blocks bounds(meshes);
+  std::vector<CameraPose> poses;
   const bool bounded = sequence.each([&](const sim::State& state) {
+    if (sequence.scene.moving_camera) poses.push_back(pose_of(sequence.scene.moving_camera(state)));
     for (std::size_t i = 0; i < meshes.size(); ++i)
       extents[i].push_back(extent_of(bounds.next(i, state.q, false).positions));
   });
@@ -97,7 +109,10 @@ bool write_gltf(const ExportedSequence& sequence, const std::filesystem::path& f
   out.write(json);
   write_words(out, {word(layout.size()), 0x004E4942});  // "BIN"
   for (const MovingMesh& mesh : meshes) out.write(bytes_of(mesh.triangles()));
-  if (sequence.count() > 1) write_animation(out, sequence.count(), sequence.scene.desc.time.fps);
+  if (sequence.count() > 1) {
+    write_animation(out, sequence.count(), sequence.scene.desc.time.fps);
+    write_camera_track(out, poses);
+  }
   Blocks blocks(meshes);
   const bool all = sequence.each([&](const sim::State& state) {
     for (std::size_t i = 0; i < meshes.size(); ++i) {

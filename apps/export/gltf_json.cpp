@@ -20,14 +20,11 @@ constexpr std::size_t kVec3 = 3 * sizeof(float);        // [bytes]
 
 Json json_of(const Eigen::Ref<const render::Vec3>& v) { return {v.x(), v.y(), v.z()}; }
 
-/// The eye's frame: x right, y up, looking along -z.
-Json camera_node(const render::Camera& camera) {
-  Eigen::Matrix3d axes;
-  axes << camera.right().cast<double>(), camera.up().cast<double>(), -camera.forward().cast<double>();
-  const Eigen::Quaterniond r = Eigen::Quaterniond(axes).normalized();
+Json camera_node(const CameraPose& pose) {
+  const Eigen::Quaternionf& r = pose.rotation;
   return {{"name", "camera"},
           {"camera", 0},
-          {"translation", json_of(camera.position())},
+          {"translation", json_of(pose.position)},
           {"rotation", {r.x(), r.y(), r.z(), r.w()}}};
 }
 
@@ -80,8 +77,7 @@ public:
       frame_at += meshes_[i].vertex_count() * kVec3 * (meshes_[i].has_normals() ? 2 : 1);
     }
     const SceneDesc& desc = sequence_.scene.desc;
-    nodes.push_back(
-        camera_node(render::Camera(sequence_.scene.camera, desc.render.width, desc.render.height)));
+    nodes.push_back(camera_node(pose_of(sequence_.scene.camera)));
     Json roots = Json::array();
     for (std::size_t i = 0; i < nodes.size(); ++i) roots.push_back(i);
     Json file = {{"asset", {{"version", "2.0"}, {"generator", "Lagomorph " + version()}}}};
@@ -112,9 +108,8 @@ private:
            {"byteStride", kVec3},
            {"target", kVertexData}});
     if (layout_.frames() > 1)
-      views_.push_back({{"buffer", 0},
-                        {"byteOffset", layout_.index_bytes()},
-                        {"byteLength", layout_.time_bytes() + layout_.weight_bytes()}});
+      views_.push_back(
+          {{"buffer", 0}, {"byteOffset", layout_.index_bytes()}, {"byteLength", layout_.animation_bytes()}});
   }
 
   std::size_t add(Json accessor) {
@@ -170,9 +165,20 @@ private:
     Json channels = Json::array();
     for (std::size_t i = 0; i < meshes_.size(); ++i)
       channels.push_back({{"sampler", 0}, {"target", {{"node", i}, {"path", "weights"}}}});
-    return {{"name", desc.name},
-            {"channels", channels},
-            {"samplers", {{{"input", input}, {"interpolation", "LINEAR"}, {"output", output}}}}};
+    Json samplers = Json::array();
+    const auto add_sampler = [&](std::size_t values) {
+      samplers.push_back({{"input", input}, {"interpolation", "LINEAR"}, {"output", values}});
+    };
+    add_sampler(output);
+    if (sequence_.scene.moving_camera) {
+      const std::uint64_t at = layout_.time_bytes() + layout_.weight_bytes();
+      add_sampler(add(accessor(view, at, kFloat, frames, "VEC3")));
+      add_sampler(add(accessor(view, at + frames * kVec3, kFloat, frames, "VEC4")));
+      const std::size_t node = meshes_.size();
+      channels.push_back({{"sampler", 1}, {"target", {{"node", node}, {"path", "translation"}}}});
+      channels.push_back({{"sampler", 2}, {"target", {{"node", node}, {"path", "rotation"}}}});
+    }
+    return {{"name", desc.name}, {"channels", channels}, {"samplers", samplers}};
   }
 
   const ExportedSequence& sequence_;
@@ -183,7 +189,8 @@ private:
 
 }  // namespace
 
-GltfLayout::GltfLayout(const std::vector<MovingMesh>& meshes, int frames) : frames_(frames) {
+GltfLayout::GltfLayout(const std::vector<MovingMesh>& meshes, int frames, bool camera_moves)
+    : frames_(frames) {
   for (const MovingMesh& mesh : meshes) {
     index_bytes_ += mesh.triangles().size() * sizeof(render::Triangle);
     frame_bytes_ += mesh.vertex_count() * kVec3 * (mesh.has_normals() ? 2 : 1);
@@ -192,6 +199,7 @@ GltfLayout::GltfLayout(const std::vector<MovingMesh>& meshes, int frames) : fram
   const auto n = static_cast<std::uint64_t>(frames);
   time_bytes_ = n * sizeof(float);
   weight_bytes_ = n * (n - 1) * sizeof(float);
+  if (camera_moves) camera_bytes_ = n * (3 + 4) * sizeof(float);
 }
 
 std::string gltf_json(const ExportedSequence& sequence, const std::vector<MovingMesh>& meshes,

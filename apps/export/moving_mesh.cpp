@@ -29,6 +29,13 @@ std::vector<MovingMesh> moving_meshes(const ExportedScene& scene) {
   return meshes;
 }
 
+CameraPose pose_of(const render::CameraSettings& settings) {
+  const render::Camera camera(settings, 1, 1);
+  Eigen::Matrix3d axes;
+  axes << camera.right().cast<double>(), camera.up().cast<double>(), -camera.forward().cast<double>();
+  return {camera.position(), Eigen::Quaterniond(axes).normalized().cast<float>()};
+}
+
 Extent extent_of(const std::vector<render::Vec3>& points) {
   Extent extent{points.at(0), points.at(0)};
   for (const render::Vec3& p : points) {

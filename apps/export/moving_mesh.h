@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "apps/export/formats.h"
 #include "render/camera.h"
 #include "render/normals.h"
@@ -42,6 +44,13 @@ struct Extent {
   render::Vec3 min, max;
 };
 Extent extent_of(const std::vector<render::Vec3>&);
+
+/// The eye's frame: x right, y up, looking along -z.
+struct CameraPose {
+  render::Vec3 position;  // [m]
+  Eigen::Quaternionf rotation;
+};
+CameraPose pose_of(const render::CameraSettings&);
 
 /// How near and far a camera need see: a hundredth and a hundred times what it looks at. [m]
 inline float view_scale(const render::CameraSettings& camera) {

@@ -95,7 +95,8 @@ ExitStatus export_pictures(const Options& options) {
                                          {"files", files}};
     print(json.dump() + "\n");
   } else if (!options.quiet) {
-    print(fmt::format("{} pictures as {} in {}\n", files.size(), pattern, out.string()));
+    print(fmt::format("{} picture{} as {} in {}\n", files.size(), files.size() == 1 ? "" : "s", pattern,
+                      out.string()));
   }
   return ExitStatus::done;
 }

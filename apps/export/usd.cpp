@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <numbers>
+#include <set>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -41,10 +43,11 @@ public:
   }
 
   bool write() {
-    int passes = 0;
+    int passes = sequence_.scene.moving_camera ? 1 : 0;
     for (const MovingMesh& mesh : meshes_)
       passes += (mesh.has_normals() ? 2 : 1) + static_cast<int>(sequence_.scene.fields.size());
     sequence_.begin(passes);
+    if (!find_cameras()) return false;
     write_head();
     for (std::size_t i = 0; i < meshes_.size(); ++i)
       if (!write_mesh(i)) return false;
@@ -72,27 +75,62 @@ private:
     line("    }}\n");
   }
 
+  /// The cameras of the frames, or the one of all. False: asked to stop.
+  bool find_cameras() {
+    if (!sequence_.scene.moving_camera) {
+      cameras_[sequence_.frames.first] = sequence_.scene.camera;
+      return true;
+    }
+    return sequence_.each(
+        [&](const sim::State& state) { cameras_[state.frame] = sequence_.scene.moving_camera(state); });
+  }
+
+  /// An attribute of the camera: once where it is the same in all frames, else by time.
+  template <class Text>
+  void write_of_camera(const std::string& attribute, Text text) {
+    std::set<std::string> all;
+    for (const auto& [frame, settings] : cameras_) all.insert(text(settings));
+    if (all.size() == 1) {
+      line("        {} = {}", attribute, *all.begin());
+      return;
+    }
+    line("        {}.timeSamples = {{", attribute);
+    for (const auto& [frame, settings] : cameras_) line("            {}: {},", frame, text(settings));
+    line("        }}");
+  }
+
   /// Apertures and focal length are in tenths of a unit; that of a perspective is as of a film 24 mm high.
   void write_camera(const SceneDesc& desc) {
-    const render::CameraSettings& settings = sequence_.scene.camera;
-    const render::Camera camera(settings, desc.render.width, desc.render.height);
+    const bool is_flat = sequence_.scene.camera.orthographic.has_value();
     const double aspect = static_cast<double>(desc.render.width) / desc.render.height;
-    const double height = settings.orthographic ? 10.0 * *settings.orthographic : 24.0;
-    const render::Vec3 back = -camera.forward();
-    const auto row = [](const render::Vec3& v, int last) {
-      return fmt::format("({}, {}, {}, {})", v.x(), v.y(), v.z(), last);
+    const auto height = [](const render::CameraSettings& c) {
+      return c.orthographic ? 10.0 * static_cast<double>(*c.orthographic) : 24.0;
+    };
+    const auto number = [](double value) { return fmt::format("{}", static_cast<float>(value)); };
+    const auto transform = [](const render::CameraSettings& c) {
+      const render::Camera camera(c, 1, 1);
+      const render::Vec3 back = -camera.forward();
+      const auto row = [](const render::Vec3& v, int last) {
+        return fmt::format("({}, {}, {}, {})", v.x(), v.y(), v.z(), last);
+      };
+      return fmt::format("( {}, {}, {}, {} )", row(camera.right(), 0), row(camera.up(), 0), row(back, 0),
+                         row(camera.position(), 1));
     };
     line("    def Camera \"camera\"\n    {{");
-    line("        float2 clippingRange = ({}, {})", kNear * view_scale(settings),
-         kFar * view_scale(settings));
-    if (!settings.orthographic)
-      line("        float focalLength = {}",
-           static_cast<float>(height / 2 / std::tan(settings.fov * std::numbers::pi / 360)));
-    line("        float horizontalAperture = {}", static_cast<float>(height * aspect));
-    line("        float verticalAperture = {}", static_cast<float>(height));
-    line("        token projection = \"{}\"", settings.orthographic ? "orthographic" : "perspective");
-    line("        matrix4d xformOp:transform = ( {}, {}, {}, {} )", row(camera.right(), 0),
-         row(camera.up(), 0), row(back, 0), row(camera.position(), 1));
+    write_of_camera("float2 clippingRange", [](const render::CameraSettings& c) {
+      return fmt::format("({}, {})", kNear * view_scale(c), kFar * view_scale(c));
+    });
+    if (!is_flat) {
+      write_of_camera("float focalLength", [&](const render::CameraSettings& c) {
+        return number(24.0 / 2 / std::tan(static_cast<double>(c.fov) * std::numbers::pi / 360));
+      });
+    }
+    write_of_camera("float horizontalAperture",
+                    [&](const render::CameraSettings& c) { return number(height(c) * aspect); });
+    write_of_camera("float verticalAperture",
+                    [&](const render::CameraSettings& c) { return number(height(c)); });
+    line("        token projection = \"{}\"", is_flat ? "orthographic" : "perspective");
+    write_of_camera("matrix4d xformOp:transform", transform);
     line("        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n    }}\n");
   }
 
@@ -175,6 +213,7 @@ private:
   FileStream out_;
   std::string root_;
   std::vector<std::string> names_;
+  std::map<int, render::CameraSettings> cameras_;  // by frame
 };
 
 }  // namespace

@@ -113,8 +113,8 @@ Report run_info(const fs::path& folder) {
   Report report(fmt::format("{}: run of '{}'", folder.string(), name), "run", folder.string());
   report.add_json("name", name);
   report.add("made by", "lagomorph " + program, "lagomorph", program);
-  report.add("time", fmt::format("{} frames at {} 1/s", count_text(frames), fps), "time",
-             {{"frames", frames}, {"fps", fps}});
+  report.add("time", fmt::format("{} frame{} at {} 1/s", count_text(frames), frames == 1 ? "" : "s", fps),
+             "time", {{"frames", frames}, {"fps", fps}});
   add_frames(report, sums, frames);
   add_seconds(report, sums);
   add_energy(report, records);

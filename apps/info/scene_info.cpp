@@ -137,16 +137,16 @@ void add_bodies(Report& report, const SceneDesc& scene, const std::vector<sim::B
 
 void add_time(Report& report, const sim::TimeSettings& time) {
   const double seconds = (time.frames - 1) / time.fps;
-  report.add(
-      "time",
-      fmt::format("{} frames at {} 1/s, {} s; {}, {} step{} a frame", count_text(time.frames), time.fps,
-                  number_text(seconds), time.integrator, time.substeps, time.substeps == 1 ? "" : "s"),
-      "time",
-      {{"frames", time.frames},
-       {"fps", time.fps},
-       {"seconds", seconds},
-       {"integrator", time.integrator},
-       {"substeps", time.substeps}});
+  report.add("time",
+             fmt::format("{} frame{} at {} 1/s, {} s; {}, {} step{} a frame", count_text(time.frames),
+                         time.frames == 1 ? "" : "s", time.fps, number_text(seconds), time.integrator,
+                         time.substeps, time.substeps == 1 ? "" : "s"),
+             "time",
+             {{"frames", time.frames},
+              {"fps", time.fps},
+              {"seconds", seconds},
+              {"integrator", time.integrator},
+              {"substeps", time.substeps}});
 }
 
 /// What makes the camera another one than it says of itself.

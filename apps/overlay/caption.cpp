@@ -1,8 +1,6 @@
 #include "apps/overlay/caption.h"
 
 #include <algorithm>
-#include <cmath>
-#include <string_view>
 
 #include <fmt/args.h>
 #include <fmt/format.h>
@@ -26,6 +24,17 @@ std::vector<std::string> lines_of(const std::string& text) {
     }
   }
   return lines;
+}
+
+/// Of the widest line, were all its digits the widest one.
+double steady_width(std::vector<std::string> lines, double height) {
+  double width = 0.0;
+  for (std::string& line : lines) {
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c >= '0' && c <= '9'; }, '0');
+    width = std::max(width, text_width(line, height));
+  }
+  return width;
 }
 
 }  // namespace
@@ -56,35 +65,24 @@ std::vector<std::string> caption_places() {
   return {"top_left", "top", "top_right", "bottom_left", "bottom", "bottom_right"};
 }
 
-Rectangle caption_plate(const render::Picture& picture, const std::string& text, const std::string& place) {
-  if (text.empty()) return {};
-  const std::string_view where = place;
-  const double height = overlay_text_height(picture), pad = height, margin = 3.0 * overlay_unit(picture);
+std::optional<Rectangle> place_caption(OverlayLayout& layout, const std::string& text,
+                                       const std::string& place) {
+  if (text.empty()) return std::nullopt;
+  const double height = layout.text_height(), pad = height;
   const std::vector<std::string> lines = lines_of(text);
-  double width = 0.0;
-  for (const std::string& line : lines) width = std::max(width, text_width(line, height));
-  // In steps, so that a plate does not change with each digit.
-  const double step = 4.0 * height;
-  const double plate = std::ceil(width / step) * step + 2.0 * pad;
   const double tall = 2.0 * pad + height + line_height * height * static_cast<double>(lines.size() - 1);
-  double left = std::round(0.5 * (picture.width - plate));
-  if (where.ends_with("left")) left = margin;
-  if (where.ends_with("right")) left = picture.width - margin - plate;
-  const double top = where.starts_with("top") ? margin : picture.height - margin - tall;
-  if (left < 0.0 || top < 0.0 || left + plate > picture.width || top + tall > picture.height) return {};
-  return {left, top, left + plate, top + tall};
+  return layout.take(steady_width(lines, height) + 2.0 * pad, tall, place);
 }
 
-void draw_caption(render::Picture& picture, const std::string& text, const std::string& place) {
-  const Rectangle plate = caption_plate(picture, text, place);
-  if (plate.right <= plate.left) return;
+void draw_caption(render::Picture& picture, const std::string& text, const Rectangle& plate) {
   draw_plate(picture, plate);
   const double height = overlay_text_height(picture), pad = height;
   const std::vector<std::string> lines = lines_of(text);
+  const double left = plate.left + 0.5 * (plate.right - plate.left - steady_width(lines, height));
   const TextStyle style{.height = height, .color = plate_ink};
   for (std::size_t i = 0; i < lines.size(); ++i)
-    draw_text(picture, plate.left + pad,
-              plate.top + pad + height + line_height * height * static_cast<double>(i), lines[i], style);
+    draw_text(picture, left, plate.top + pad + height + line_height * height * static_cast<double>(i),
+              lines[i], style);
 }
 
 }  // namespace lagomorph::apps

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/overlay/layout.h"
 #include "apps/overlay/overlay.h"
 #include "render/color.h"
 
@@ -26,10 +28,11 @@ std::string caption_text(const std::string& form, const CaptionValues&);
 /// top_left, top, top_right, bottom_left, bottom, bottom_right.
 std::vector<std::string> caption_places();
 
-/// The plate of a caption; empty where there is no text or the picture is too small.
-Rectangle caption_plate(const render::Picture&, const std::string& text, const std::string& place);
+/// Takes room for the plate of a text at a place as above; none where there is no text or no room. Its size
+/// is the same for other digits.
+std::optional<Rectangle> place_caption(OverlayLayout&, const std::string& text, const std::string& place);
 
-/// Writes lines of text on a plate, at a place as above; nothing where the picture is too small.
-void draw_caption(render::Picture&, const std::string& text, const std::string& place);
+/// Writes lines of text on their plate: in its middle, each where the first begins.
+void draw_caption(render::Picture&, const std::string& text, const Rectangle& plate);
 
 }  // namespace lagomorph::apps

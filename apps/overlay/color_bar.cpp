@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -36,9 +38,12 @@ std::string number_text(double value, double step, double size) {
   return fmt::format("{:.{}f}", value, std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9))));
 }
 
-/// A bar in the picture.
+constexpr double line_pitch = 1.7;  // of a title's lines, over their height
+
+/// A bar on its plate.
 struct BarLayout {
   double unit, text, pad;
+  std::vector<std::string> title;  // a line each
   double title_width, labels_width;
 
   double tick() const { return 0.9 * unit; }
@@ -46,15 +51,32 @@ struct BarLayout {
   double bar_height() const { return 42.0 * unit; }
   double column() const { return bar_width() + 2.2 * tick() + labels_width; }
   double width() const { return 2.0 * pad + std::max(title_width, column()); }
-  double height() const { return 2.5 * pad + text + bar_height() + 0.5 * text + pad; }
+  double title_height() const { return text * (1.0 + line_pitch * static_cast<double>(title.size() - 1)); }
+  double height() const { return 2.5 * pad + title_height() + bar_height() + 0.5 * text + pad; }
 };
 
-BarLayout layout_of(const render::Picture& picture, const BarLabels& labels) {
-  BarLayout l{overlay_unit(picture), overlay_text_height(picture), 0, 0, 0};
+/// A title that is wider than `width` in two lines, broken at the blank that makes them as narrow as can be.
+std::vector<std::string> title_lines(const std::string& title, double height, double width) {
+  double least = text_width(title, height);
+  std::vector<std::string> lines = {title};
+  if (least <= width) return lines;
+  for (std::size_t at = title.find(' '); at != std::string::npos; at = title.find(' ', at + 1)) {
+    std::vector<std::string> two = {title.substr(0, at), title.substr(at + 1)};
+    const double wide = std::max(text_width(two[0], height), text_width(two[1], height));
+    if (wide >= least) continue;
+    least = wide;
+    lines = std::move(two);
+  }
+  return lines;
+}
+
+BarLayout layout_of(int width, int height, const BarLabels& labels) {
+  BarLayout l{overlay_unit(width, height), overlay_text_height(width, height), 0, {}, 0, 0};
   l.pad = 1.2 * l.text;
-  l.title_width = text_width(labels.title, l.text);
   for (const BarLabel& label : labels.ticks)
     l.labels_width = std::max(l.labels_width, text_width(label.text, l.text));
+  l.title = title_lines(labels.title, l.text, l.column());
+  for (const std::string& line : l.title) l.title_width = std::max(l.title_width, text_width(line, l.text));
   return l;
 }
 
@@ -69,13 +91,17 @@ void draw_gradient(render::Picture& picture, const Rectangle& bar, const render:
   }
 }
 
-void draw_bar(render::Picture& picture, const ColorBar& bar, const BarLabels& labels, const BarLayout& l,
-              double left, double top) {
-  draw_plate(picture, {left, top, left + l.width(), top + l.height()});
+void draw_bar(render::Picture& picture, const ColorBar& bar, const Rectangle& plate) {
+  const BarLabels labels = labels_of(bar);
+  const BarLayout l = layout_of(picture.width, picture.height, labels);
+  draw_plate(picture, plate);
   const TextStyle style{.height = l.text, .color = plate_ink};
-  draw_text(picture, left + l.pad, top + l.pad + l.text, labels.title, style);
-  const double x = std::round(left + 0.5 * (l.width() - l.column())),
-               y = std::round(top + 2.5 * l.pad + l.text);
+  const double middle = 0.5 * (plate.left + plate.right);
+  for (std::size_t i = 0; i < l.title.size(); ++i)
+    draw_text(picture, middle - 0.5 * text_width(l.title[i], l.text),
+              plate.top + l.pad + l.text * (1.0 + line_pitch * static_cast<double>(i)), l.title[i], style);
+  const double x = std::round(middle - 0.5 * l.column()),
+               y = std::round(plate.top + 2.5 * l.pad + l.title_height());
   const Rectangle colors{x, y, x + std::round(l.bar_width()), y + std::round(l.bar_height())};
   const double line = std::max(1.0, std::round(0.12 * l.unit));
   fill_rectangle(picture, {x - line, y - line, colors.right + line, colors.bottom + line}, plate_ink, 0.5);
@@ -107,18 +133,27 @@ BarLabels labels_of(const ColorBar& bar, int steps) {
   return labels;
 }
 
-double draw_color_bars(render::Picture& picture, const std::vector<ColorBar>& bars) {
-  const double margin = 3.0 * overlay_unit(picture);
-  double right = picture.width - margin;
+std::vector<Rectangle> place_color_bars(OverlayLayout& layout, const std::vector<ColorBar>& bars) {
+  std::vector<Rectangle> plates;
   for (const ColorBar& bar : bars) {
-    const BarLabels labels = labels_of(bar);
-    const BarLayout l = layout_of(picture, labels);
-    const double left = std::round(right - l.width()), top = std::round(0.5 * (picture.height - l.height()));
-    if (left < 0.0 || top < 0.0) break;
-    draw_bar(picture, bar, labels, l, left, top);
-    right = left - 0.5 * margin;
+    const BarLayout l = layout_of(layout.width(), layout.height(), labels_of(bar));
+    const std::optional<Rectangle> plate = layout.take(l.width(), l.height(), "right");
+    if (!plate) break;
+    plates.push_back(*plate);
   }
-  return picture.width - margin - right;
+  return plates;
+}
+
+void draw_color_bars(render::Picture& picture, const std::vector<ColorBar>& bars,
+                     const std::vector<Rectangle>& plates) {
+  for (std::size_t i = 0; i < plates.size(); ++i) draw_bar(picture, bars[i], plates[i]);
+}
+
+double color_bar_strip(int width, int height, const std::vector<ColorBar>& bars) {
+  OverlayLayout alone(width, height);
+  double left = width;
+  for (const Rectangle& plate : place_color_bars(alone, bars)) left = std::min(left, plate.left);
+  return (width - left) / width;
 }
 
 }  // namespace lagomorph::apps

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/overlay/layout.h"
+#include "apps/overlay/overlay.h"
 #include "render/color.h"
 #include "render/colormap.h"
 
@@ -28,8 +30,13 @@ struct BarLabels {
 /// Some `steps` or fewer apart.
 BarLabels labels_of(const ColorBar&, int steps = 8);
 
-/// Draws the bars at the right edge of the picture, each left of the one before; nothing in a picture that is
-/// too small for them. How far from that edge the bars and the gap beside them reach [pixels].
-double draw_color_bars(render::Picture&, const std::vector<ColorBar>&);
+/// Takes room for the plates of bars at the right edge, each left of the one before where there is some; of
+/// as many of them as have room.
+std::vector<Rectangle> place_color_bars(OverlayLayout&, const std::vector<ColorBar>&);
+/// Draws the bars on their plates.
+void draw_color_bars(render::Picture&, const std::vector<ColorBar>&, const std::vector<Rectangle>& plates);
+
+/// The part of a picture's width, from its right edge, in which the bars stand. In [0, 1].
+double color_bar_strip(int width, int height, const std::vector<ColorBar>&);
 
 }  // namespace lagomorph::apps

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -28,8 +27,13 @@ constexpr std::array<Curve, 4> curves = {{{"kinetic", &EnergySample::kinetic, {8
 
 struct PlotLayout {
   double unit, text;
-  double left, top, width, height;  // of the plate
-  Rectangle box;                    // of the curves
+  std::size_t columns;  // of the legend
+  double width, height;
+  Rectangle plate;
+  Rectangle box;  // of the curves
+  double pad() const { return 1.2 * text; }
+  double row() const { return 1.9 * text; }  // of the legend, from line to line
+  std::size_t rows() const { return (curves.size() + columns - 1) / columns; }
   double x(const EnergyAxes& axes, double time) const {
     return box.left + (time - axes.time[0]) / (axes.time[1] - axes.time[0]) * (box.right - box.left);
   }
@@ -50,48 +54,71 @@ std::array<double, 2> to_round_numbers(std::array<double, 2> range) {
 
 std::string time_text(double time) { return fmt::format("{:.4g}", time); }
 
-/// The gaps between its entries left out.
-double legend_width(double text) {
-  double width = 0.0;
-  for (const Curve& curve : curves) width += text_width(curve.name, text) + 2.2 * text;
+double entry_width(const Curve& curve, double text) { return text_width(curve.name, text) + 2.2 * text; }
+
+/// Of each of the legend's columns.
+std::vector<double> column_widths(std::size_t columns, double text) {
+  std::vector<double> widths(columns, 0.0);
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    widths[i % columns] = std::max(widths[i % columns], entry_width(curves[i], text));
+  return widths;
+}
+
+double legend_width(std::size_t columns, double text) {
+  double width = 1.2 * text * static_cast<double>(columns - 1);
+  for (const double column : column_widths(columns, text)) width += column;
   return width;
 }
 
-PlotLayout layout_of(const render::Picture& picture, const BarLabels& labels, std::string_view place,
-                     double above, double beside) {
+BarLabels energy_labels(const EnergyAxes& axes) {
+  return labels_of({"energy", "J", nullptr, axes.energy[0], axes.energy[1]}, 4);
+}
+
+EnergyAxes rounded_axes(const EnergyAxes& given) {
+  return {.time = given.time, .energy = to_round_numbers(given.energy)};
+}
+
+/// The legend takes two rows where letters have their least size.
+PlotLayout plot_layout(int width, int height, const BarLabels& labels) {
   PlotLayout l{};
-  l.unit = overlay_unit(picture);
-  l.text = 0.82 * overlay_text_height(picture);
+  l.unit = overlay_unit(width, height);
+  l.text = std::max(6.0, 0.82 * overlay_text_height(width, height));
   double numbers = 0.0;
   for (const BarLabel& label : labels.ticks) numbers = std::max(numbers, text_width(label.text, l.text));
-  const double pad = 1.2 * l.text;
-  const double legend = legend_width(l.text) + 1.2 * l.text * (curves.size() - 1);
-  const double inner_width = std::round(std::max(38.0 * l.unit, legend - numbers - l.text)),
-               inner_height = std::round(19.0 * l.unit);
-  l.width = std::round(2.0 * pad + numbers + l.text + inner_width);
-  l.height = std::round(2.0 * pad + 4.4 * l.text + inner_height + 2.2 * l.text);
-  const double margin = 3.0 * l.unit;
-  l.left = std::round(0.5 * (picture.width - l.width));
-  if (place.ends_with("left")) l.left = std::round(margin);
-  if (place.ends_with("right")) l.left = std::round(picture.width - margin - beside - l.width);
-  l.top = std::round(place.starts_with("top") ? margin + above : picture.height - margin - above - l.height);
-  l.box.left = std::round(l.left + pad + numbers + l.text);
-  l.box.right = l.box.left + inner_width;
-  l.box.top = std::round(l.top + pad + 4.4 * l.text);
-  l.box.bottom = l.box.top + inner_height;
+  const double beside = std::round(numbers + l.text);
+  l.columns = legend_width(4, l.text) <= beside + 42.0 * l.unit ? 4 : 2;
+  const double inner = std::max(38.0 * l.unit, legend_width(l.columns, l.text) - beside);
+  l.width = std::round(2.0 * l.pad() + beside + inner);
+  const double above = 2.5 * l.text + l.row() * static_cast<double>(l.rows());  // title and legend
+  l.height = std::round(2.0 * l.pad() + above + 19.0 * l.unit + 2.2 * l.text);
+  l.box = {std::round(l.pad() + beside), std::round(l.pad() + above), std::round(l.width - l.pad()),
+           std::round(l.height - l.pad() - 2.2 * l.text)};
+  return l;
+}
+
+PlotLayout layout_on(const Rectangle& plate, const render::Picture& picture, const BarLabels& labels) {
+  PlotLayout l = plot_layout(picture.width, picture.height, labels);
+  l.plate = plate;
+  l.box = {plate.left + l.box.left, plate.top + l.box.top, plate.left + l.box.right,
+           plate.top + l.box.bottom};
   return l;
 }
 
 void draw_legend(render::Picture& picture, const PlotLayout& l) {
-  const double pad = 1.2 * l.text, y = l.top + pad + 2.9 * l.text;
-  const double left = l.left + pad, right = l.left + l.width - pad;
-  const double gap = (right - left - legend_width(l.text)) / (curves.size() - 1);
+  const std::vector<double> widths = column_widths(l.columns, l.text);
+  const double left = l.plate.left + l.pad(), right = l.box.right;
+  double gap = right - left;
+  for (const double width : widths) gap -= width;
+  gap /= static_cast<double>(l.columns - 1);
   double x = left;
-  for (const Curve& curve : curves) {
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const std::size_t column = i % l.columns, row = i / l.columns;
+    if (column == 0) x = left;
+    const double y = l.plate.top + l.pad() + 2.9 * l.text + l.row() * static_cast<double>(row);
     const std::array<Segment, 1> sample = {{{{x, y - 0.5 * l.text}, {x + 1.5 * l.text, y - 0.5 * l.text}}}};
-    draw_strokes(picture, sample, std::max(1.5, 0.22 * l.text), curve.color);
-    draw_text(picture, x + 2.2 * l.text, y, curve.name, {.height = l.text, .color = plate_ink});
-    x += 2.2 * l.text + text_width(curve.name, l.text) + gap;
+    draw_strokes(picture, sample, std::max(1.5, 0.22 * l.text), curves[i].color);
+    draw_text(picture, x + 2.2 * l.text, y, curves[i].name, {.height = l.text, .color = plate_ink});
+    x += widths[column] + gap;
   }
 }
 
@@ -122,16 +149,19 @@ void draw_axes(render::Picture& picture, const PlotLayout& l, const EnergyAxes& 
 
 }  // namespace
 
+std::optional<Rectangle> place_energy_plot(OverlayLayout& layout, const EnergyAxes& axes,
+                                           const std::string& place) {
+  const PlotLayout l = plot_layout(layout.width(), layout.height(), energy_labels(rounded_axes(axes)));
+  return layout.take(l.width, l.height, place);
+}
+
 void draw_energy_plot(render::Picture& picture, const std::vector<EnergySample>& samples,
-                      const EnergyAxes& given, const std::string& place, double above, double beside) {
-  const EnergyAxes axes{.time = given.time, .energy = to_round_numbers(given.energy)};
-  const BarLabels labels = labels_of({"energy", "J", nullptr, axes.energy[0], axes.energy[1]}, 4);
-  const PlotLayout l = layout_of(picture, labels, place, above, beside);
-  if (l.left < 0.0 || l.top < 0.0 || l.left + l.width > picture.width || l.top + l.height > picture.height)
-    return;
-  draw_plate(picture, {l.left, l.top, l.left + l.width, l.top + l.height});
-  const double pad = 1.2 * l.text;
-  draw_text(picture, l.left + pad, l.top + pad + l.text, labels.title,
+                      const EnergyAxes& given, const Rectangle& plate) {
+  const EnergyAxes axes = rounded_axes(given);
+  const BarLabels labels = energy_labels(axes);
+  const PlotLayout l = layout_on(plate, picture, labels);
+  draw_plate(picture, plate);
+  draw_text(picture, plate.left + l.pad(), plate.top + l.pad() + l.text, labels.title,
             {.height = l.text, .color = plate_ink});
   draw_legend(picture, l);
   draw_axes(picture, l, axes, labels);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "render/color.h"
+#include "apps/overlay/layout.h"
+#include "apps/overlay/overlay.h"
 
 namespace lagomorph::apps {
 
@@ -19,10 +21,11 @@ struct EnergyAxes {
   std::array<double, 2> time = {0.0, 1.0}, energy = {0.0, 1.0};
 };
 
-/// Draws a small diagram of energies over time on a plate, at a place as a caption's; nothing where the
-/// picture is too small. What is there already takes so many pixels: `above` from the border at the top or
-/// bottom, `beside` from that at the right.
+/// Takes room for the plate of a small diagram at a place as a caption's; none where there is not enough.
+std::optional<Rectangle> place_energy_plot(OverlayLayout&, const EnergyAxes&, const std::string& place);
+
+/// Draws energies over time on that plate.
 void draw_energy_plot(render::Picture&, const std::vector<EnergySample>&, const EnergyAxes&,
-                      const std::string& place, double above = 0.0, double beside = 0.0);
+                      const Rectangle& plate);
 
 }  // namespace lagomorph::apps

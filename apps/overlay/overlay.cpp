@@ -20,13 +20,9 @@ int pixel_at(double place, int most) {
 
 }  // namespace
 
-double overlay_unit(const render::Picture& picture) {
-  return 0.01 * std::min<double>(picture.height, 1.4 * picture.width);
-}
+double overlay_unit(int width, int height) { return 0.01 * std::min(width, height); }
 
-double overlay_text_height(const render::Picture& picture) {
-  return std::max(6.0, 1.7 * overlay_unit(picture));
-}
+double overlay_text_height(int width, int height) { return std::max(6.0, 1.7 * overlay_unit(width, height)); }
 
 void blend(render::Picture& picture, int x, int y, const Color& color, double opacity) {
   const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +

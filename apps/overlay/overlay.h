@@ -10,10 +10,16 @@ struct Rectangle {
   double left = 0, top = 0, right = 0, bottom = 0;
 };
 
-/// Sizes that go with a picture: a hundredth of its height, less where it is narrow.
-double overlay_unit(const render::Picture&);
+inline bool overlap(const Rectangle& a, const Rectangle& b) {
+  return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+}
+
+/// Sizes that go with a picture or panel: a hundredth of its shorter side.
+double overlay_unit(int width, int height);
 /// Height of capitals, large enough to read.
-double overlay_text_height(const render::Picture&);
+double overlay_text_height(int width, int height);
+inline double overlay_unit(const render::Picture& p) { return overlay_unit(p.width, p.height); }
+inline double overlay_text_height(const render::Picture& p) { return overlay_text_height(p.width, p.height); }
 
 /// Blends a colour into one pixel of the picture.
 void blend(render::Picture&, int x, int y, const Color&, double opacity);

@@ -1,6 +1,9 @@
 #include "apps/pipeline/body_lines.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "apps/pipeline/build_scene.h"
@@ -21,6 +24,27 @@ LineMesh boundary_lines(const sim::TetMesh& mesh, sim::Range tets) {
   return lines;
 }
 
+/// The pieces that coarse edges became; with `coarse`, whose vertices in use have the coarse numbers in their
+/// order, of its edges alone.
+std::vector<std::array<std::uint32_t, 2>> edges_in_pieces(const std::vector<std::array<int, 2>>& all,
+                                                          std::size_t pieces, const LineMesh& coarse) {
+  std::set<std::uint32_t> used;
+  for (const render::Triangle& t : coarse.triangles) used.insert(t.begin(), t.end());
+  const std::vector<std::uint32_t> vertices(used.begin(), used.end());
+  const std::set<std::array<std::uint32_t, 2>> kept(coarse.edges.begin(), coarse.edges.end());
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  for (std::size_t i = 0; i < all.size(); i += pieces) {
+    if (!kept.empty()) {
+      const auto [a, b] = std::minmax(vertices[static_cast<std::size_t>(all[i][0])],
+                                      vertices[static_cast<std::size_t>(all[i + pieces - 1][1])]);
+      if (!kept.contains({a, b})) continue;
+    }
+    for (std::size_t k = i; k < i + pieces; ++k)
+      edges.push_back({static_cast<std::uint32_t>(all[k][0]), static_cast<std::uint32_t>(all[k][1])});
+  }
+  return edges;
+}
+
 }  // namespace
 
 BodyLines lines_of_all_tets(const sim::Model& model, std::size_t body) {
@@ -36,8 +60,16 @@ BodyLines lines_of_tets(const SceneDesc& scene, const sim::Model& model, std::si
 
 BodyLines lines_of(const SceneDesc& scene, const sim::Model& model, const std::vector<sim::Surface>& surfaces,
                    std::size_t body, const std::string& of) {
-  const bool fine = !scene.clip && !scene.body[body].surface.mesh.empty();
-  return of == "surface" && fine ? lines_of_surface(surfaces[body]) : lines_of_tets(scene, model, body);
+  const SurfaceDesc& drawn = scene.body[body].surface;
+  const bool fine = !scene.clip && (!drawn.mesh.empty() || drawn.subdivide > 0);
+  if (of != "surface" || !fine) return lines_of_tets(scene, model, body);
+  BodyLines lines = lines_of_surface(surfaces[body]);
+  if (drawn.subdivide > 0) {
+    const bool of_tets = drawn.mesh.empty();
+    lines.mesh.edges = edges_in_pieces(surfaces[body].coarse_edges(), std::size_t{1} << drawn.subdivide,
+                                       of_tets ? lines_of_all_tets(model, body).mesh : LineMesh{});
+  }
+  return lines;
 }
 
 BodyLines lines_of_surface(const sim::Surface& surface) {

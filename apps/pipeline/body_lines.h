@@ -22,8 +22,8 @@ BodyLines lines_of_all_tets(const sim::Model&, std::size_t body);
 /// The same of those that a clip leaves. Of quadratic tets only the tets' own edges,
 /// not those between the four triangles of a face.
 BodyLines lines_of_tets(const SceneDesc&, const sim::Model&, std::size_t body);
-/// Of "surface" what is drawn of the body, the boundary of its tets unless it is a fine mesh; of "tets" that
-/// boundary.
+/// Of "surface" what is drawn of the body, the boundary of its tets unless it is a fine mesh or subdivided;
+/// the edges are then those of what was subdivided, as they run on it. Of "tets" that boundary.
 BodyLines lines_of(const SceneDesc&, const sim::Model&, const std::vector<sim::Surface>&, std::size_t body,
                    const std::string& of);
 BodyLines lines_of_surface(const sim::Surface&);

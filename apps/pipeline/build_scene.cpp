@@ -47,6 +47,41 @@ sim::TriMesh read_fine_mesh(const BodyDesc& body, const std::filesystem::path& f
   return fine;
 }
 
+/// The fine mesh that a body carries.
+sim::Surface embedded_surface(const SceneDesc& scene, const sim::Model& model, std::size_t index,
+                              Progress& progress) {
+  const BodyDesc& body = scene.body[index];
+  const std::filesystem::path file = scene.directory / body.surface.mesh;
+  const sim::TriMesh fine = read_fine_mesh(body, file, progress);
+  try {
+    sim::Surface surface =
+        sim::Surface::embedded(model.mesh(), static_cast<int>(index), fine, body.surface.max_outside);
+    if (surface.outside_count() > 0) {
+      progress.note(fmt::format("{}: {} vertices lie outside of the tets, by {:.2g} m at most", file.string(),
+                                surface.outside_count(), surface.outside_distance()));
+    }
+    return surface;
+  } catch (const sim::InputError& e) {
+    throw sim::InputError(file.string() + ": " + e.what());
+  }
+}
+
+sim::Surface smooth_surface(const sim::Surface& coarse, const std::string& body, int levels,
+                            Progress& progress) {
+  try {
+    sim::Surface fine = coarse.subdivided(levels);
+    std::string creases;
+    if (fine.open_edges() > 0) creases = fmt::format("; its {} open edges stay a border", fine.open_edges());
+    if (fine.crease_edges() > 0)
+      creases += fmt::format("; {} edges of three or more triangles stay creases", fine.crease_edges());
+    progress.note(fmt::format("{}: surface subdivided from {} to {} triangles{}", body,
+                              coarse.triangles().size(), fine.triangles().size(), creases));
+    return fine;
+  } catch (const sim::InputError& e) {
+    throw sim::InputError(fmt::format("surface.subdivide of body '{}': {}", body, e.what()));
+  }
+}
+
 /// The picture of a sky around; messages name the file.
 render::SkyMap read_sky(const std::filesystem::path& file, float rotation) {
   const std::string bytes = read_file(file);
@@ -126,21 +161,10 @@ std::vector<sim::Surface> build_surfaces(const SceneDesc& scene, const sim::Mode
   for (std::size_t i = 0; i < scene.body.size(); ++i) {
     const BodyDesc& body = scene.body[i];
     const int index = static_cast<int>(i);
-    if (body.surface.mesh.empty()) {
-      surfaces.push_back(sim::Surface::boundary(model.mesh(), index));
-      continue;
-    }
-    const std::filesystem::path file = scene.directory / body.surface.mesh;
-    const sim::TriMesh fine = read_fine_mesh(body, file, progress);
-    try {
-      surfaces.push_back(sim::Surface::embedded(model.mesh(), index, fine, body.surface.max_outside));
-    } catch (const sim::InputError& e) {
-      throw sim::InputError(file.string() + ": " + e.what());
-    }
-    if (surfaces.back().outside_count() > 0) {
-      progress.note(fmt::format("{}: {} vertices lie outside of the tets, by {:.2g} m at most", file.string(),
-                                surfaces.back().outside_count(), surfaces.back().outside_distance()));
-    }
+    surfaces.push_back(body.surface.mesh.empty() ? sim::Surface::boundary(model.mesh(), index)
+                                                 : embedded_surface(scene, model, i, progress));
+    if (body.surface.subdivide > 0)
+      surfaces.back() = smooth_surface(surfaces.back(), body.physics.name, body.surface.subdivide, progress);
   }
   return surfaces;
 }

@@ -22,6 +22,7 @@ CameraRig::CameraRig(const SceneDesc& scene, const sim::Model& model,
       height_(height),
       follows_(scene.camera.follow != "none"),
       needs_all_states_(scene.camera.frame == "motion"),
+      fits_(scene.camera.frame == "rest" || scene.camera.frame == "motion"),
       center_of_mass_(sim::Vec3::Zero()) {
   const sim::VecX q = model.initial_state().q;
   if (follows_) center_of_mass_ = center_of_mass(model, q);
@@ -51,14 +52,14 @@ std::optional<std::array<double, 6>> CameraRig::fitted_box() const {
   return std::array<double, 6>{low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
 }
 
-render::CameraSettings CameraRig::settings(int frame, const sim::VecX& q) const {
-  render::CameraSettings settings = moves_.at(frame, box_);
+render::CameraSettings CameraRig::settings(int frame, const sim::VecX& q, double strip) const {
+  render::CameraSettings settings = moves_.at(frame, box_, strip);
   shift(settings, offset(q));
   return settings;
 }
 
-render::Camera CameraRig::at(int frame, const sim::VecX& q) const {
-  return {settings(frame, q), width_, height_};
+render::Camera CameraRig::at(int frame, const sim::VecX& q, double strip) const {
+  return {settings(frame, q, strip), width_, height_};
 }
 
 }  // namespace lagomorph::apps

@@ -27,9 +27,13 @@ public:
   /// Least and greatest corner of the box that the camera is fitted to, in the frame that it follows. [m]
   std::optional<std::array<double, 6>> fitted_box() const;
 
-  render::CameraSettings settings(int frame, const sim::VecX& q) const;
-  /// The camera of a frame whose bodies are at q.
-  render::Camera at(int frame, const sim::VecX& q) const;
+  /// Whether the bodies' box is fitted into the picture.
+  bool is_fitted() const { return fits_; }
+
+  /// The camera of a frame whose bodies are at q. What is fitted leaves a strip free at the right, this part
+  /// of the picture's width.
+  render::CameraSettings settings(int frame, const sim::VecX& q, double strip = 0.0) const;
+  render::Camera at(int frame, const sim::VecX& q, double strip = 0.0) const;
 
 private:
   sim::Vec3 offset(const sim::VecX& q) const;
@@ -38,7 +42,7 @@ private:
   const std::vector<sim::Surface>& surfaces_;
   CameraMoves moves_;
   int width_, height_;
-  bool follows_, needs_all_states_;
+  bool follows_, needs_all_states_, fits_;
   sim::Vec3 center_of_mass_;  // in frame 0 [m]
   std::optional<Eigen::AlignedBox3d> box_;
 };

@@ -25,34 +25,40 @@ CaptionValues caption_values(const SceneDesc& scene, int frame, const StateRecor
 
 }  // namespace
 
+std::vector<ColorBar> bars_of(const SurfaceFields& fields, const Overlays& overlays) {
+  std::vector<ColorBar> bars = fields.bars();
+  for (ColorBar& bar : overlays.bars()) bars.push_back(std::move(bar));
+  return bars;
+}
+
 render::Picture finish_picture(const RenderedFrame& frame, const SceneDesc& scene,
-                               const SurfaceFields& fields, const Overlays& overlays) {
+                               const SurfaceFields& fields, const Overlays& overlays, OverlayLayout layout) {
   render::Picture picture =
       render::tone_map(frame.image, scene.render.tone_curve, scene.render.exposure, scene.render.transparent);
+  const std::vector<ColorBar> bars = bars_of(fields, overlays);
+  const std::vector<Rectangle> bar_plates = place_color_bars(layout, bars);
+  const std::string caption =
+      caption_text(scene.caption.text, caption_values(scene, frame.state.frame, frame.told));
+  const std::optional<Rectangle> caption_plate = place_caption(layout, caption, scene.caption.place);
   overlay(picture, [&](render::Picture& on) {
     overlays.draw(on, frame.camera, frame.state);
-    std::vector<ColorBar> bars = fields.bars();
-    for (ColorBar& bar : overlays.bars()) bars.push_back(std::move(bar));
-    const double beside = draw_color_bars(on, bars);
-    const std::string caption =
-        caption_text(scene.caption.text, caption_values(scene, frame.state.frame, frame.told));
-    double above = 0.0;  // the caption, where it is in the same place
-    if (scene.caption.place == scene.energy_plot.place) {
-      const Rectangle plate = caption_plate(on, caption, scene.caption.place);
-      if (plate.bottom > plate.top) above = plate.bottom - plate.top + overlay_unit(on);
-    }
-    overlays.draw_energies(on, frame.state.frame, above, beside);
-    draw_caption(on, caption, scene.caption.place);
+    draw_color_bars(on, bars, bar_plates);
+    if (caption_plate) draw_caption(on, caption, *caption_plate);
+    OverlayLayout left = layout;  // this may be called twice
+    overlays.draw_energies(on, left, frame.state.frame);
   });
   return picture;
 }
 
-void draw_scene_caption(render::Picture& picture, const SceneDesc& scene, int frame,
-                        const StateRecord& state) {
-  overlay(picture, [&](render::Picture& on) {
-    draw_caption(on, caption_text(scene.caption.text, caption_values(scene, frame, state)),
-                 scene.caption.place);
-  });
+SceneCaption::SceneCaption(const SceneDesc& scene, int frame, const StateRecord& state)
+    : text_(caption_text(scene.caption.text, caption_values(scene, frame, state))) {
+  OverlayLayout layout(scene.render.width, scene.render.height);
+  plate_ = place_caption(layout, text_, scene.caption.place);
+}
+
+void SceneCaption::draw(render::Picture& picture) const {
+  if (!plate_) return;
+  overlay(picture, [&](render::Picture& on) { draw_caption(on, text_, *plate_); });
 }
 
 }  // namespace lagomorph::apps

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/overlay/color_bar.h"
+#include "apps/overlay/layout.h"
 #include "apps/pipeline/overlays.h"
 #include "apps/pipeline/surface_fields.h"
 #include "apps/run/record.h"
@@ -19,10 +25,24 @@ struct RenderedFrame {
   const StateRecord& told;  // of the state
 };
 
-/// Its picture: tone curve, overlays, colour bars, diagram, caption.
-render::Picture finish_picture(const RenderedFrame&, const SceneDesc&, const SurfaceFields&, const Overlays&);
+/// Its picture: tone curve, overlays, colour bars, caption, diagram, these three where the layout has room.
+render::Picture finish_picture(const RenderedFrame&, const SceneDesc&, const SurfaceFields&, const Overlays&,
+                               OverlayLayout);
+
+/// What is told of the values in a picture.
+std::vector<ColorBar> bars_of(const SurfaceFields&, const Overlays&);
 
 /// The scene's caption over a picture.
-void draw_scene_caption(render::Picture&, const SceneDesc&, int frame, const StateRecord& state);
+class SceneCaption {
+public:
+  SceneCaption(const SceneDesc&, int frame, const StateRecord& state);
+  /// Where it stands; nothing in a picture that is too small for it.
+  const std::optional<Rectangle>& plate() const { return plate_; }
+  void draw(render::Picture&) const;
+
+private:
+  std::string text_;
+  std::optional<Rectangle> plate_;
+};
 
 }  // namespace lagomorph::apps

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 
 #include "apps/error.h"
 #include "apps/file_io.h"
@@ -11,6 +12,7 @@
 #include "apps/pipeline/stopwatch.h"
 #include "apps/run/channel_files.h"
 #include "apps/run/state_file.h"
+#include "render/channel_png.h"
 #include "render/exr.h"
 #include "render/png.h"
 #include "sim/profile.h"
@@ -30,13 +32,13 @@ std::string encode_file(const std::string& file, const render::Image& image,
                         const render::RenderSettings& settings) {
   if (file == multilayer_file)
     return render::encode_multilayer_exr(image, settings.channels, settings.transparent);
-  const bool is_exr = file.ends_with(exr_extension);
-  const std::string name =
-      is_exr ? file.substr(0, file.size() - std::string_view(exr_extension).size()) : file;
+  const std::string name(channel_of(file));
   const render::Channel* channel = image.find(name);
   if (channel == nullptr)
     throw Error(ExitStatus::machine, "the renderer '" + settings.backend + "' gave no channel " + name);
-  return is_exr ? render::encode_exr(*channel) : encode_npy(*channel);
+  const std::string_view extension = channel_extension(file);
+  if (extension == png_extension) return render::encode_channel_png(*channel, settings.png_compression);
+  return extension == exr_extension ? render::encode_exr(*channel) : encode_npy(*channel);
 }
 
 }  // namespace

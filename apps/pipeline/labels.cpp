@@ -19,10 +19,6 @@ int spacing(std::size_t count, int most) {
   return static_cast<int>(std::max<std::size_t>(1, (count + limit - 1) / limit));
 }
 
-bool overlap(const Rectangle& a, const Rectangle& b) {
-  return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
-}
-
 std::string ordinal(int n) {
   const bool teen = n % 100 >= 11 && n % 100 <= 13;
   const char* end = teen || n % 10 > 3 || n % 10 == 0 ? "th" : n % 10 == 1 ? "st" : n % 10 == 2 ? "nd" : "rd";

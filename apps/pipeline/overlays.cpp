@@ -129,14 +129,14 @@ void Overlays::draw(render::Picture& picture, const render::Camera& camera, cons
   draw_labels(picture, view, state.q);
 }
 
-void Overlays::draw_energies(render::Picture& picture, int frame, double above, double beside) const {
+void Overlays::draw_energies(render::Picture& picture, OverlayLayout& layout, int frame) const {
   if (!scene_.energy_plot.show || energies_.empty()) return;
   std::vector<EnergySample> so_far;
   for (const auto& [of, sample] : energies_)
     if (of <= frame) so_far.push_back(sample);
-  const auto found = ranges();
-  draw_energy_plot(picture, so_far, {found.at("energy_plot.time"), axes_.energy}, scene_.energy_plot.place,
-                   above, beside);
+  const EnergyAxes axes{ranges().at("energy_plot.time"), axes_.energy};
+  if (const auto plate = place_energy_plot(layout, axes, scene_.energy_plot.place))
+    draw_energy_plot(picture, so_far, axes, *plate);
 }
 
 std::vector<ColorBar> Overlays::bars() const {
@@ -153,6 +153,8 @@ std::vector<std::string> Overlays::remarks() const {
     remarks.emplace_back("glyphs.loads has no effect: no body has a load");
   for (std::size_t i = 0; i < scene_.body.size(); ++i) {
     const BodyDesc& body = scene_.body[i];
+    if (scene_.clip && body.surface.subdivide > 0)
+      remarks.push_back(fmt::format("body.{}.surface.subdivide has no effect: clip shows the tets", i));
     if (!body.surface.fill && !body.wireframe.show) {
       remarks.push_back(fmt::format(
           "body.{}.surface.fill = false without body.{}.wireframe.show: the surface of '{}' is not drawn", i,

@@ -36,8 +36,8 @@ public:
 
   /// Draws those of a state over its picture.
   void draw(render::Picture&, const render::Camera&, const sim::State&) const;
-  /// Draws the energies up to a frame; see draw_energy_plot().
-  void draw_energies(render::Picture&, int frame, double above, double beside) const;
+  /// Draws the diagram of the energies up to a frame where the layout has room.
+  void draw_energies(render::Picture&, OverlayLayout&, int frame) const;
   /// Of displacements, where they have arrows.
   std::vector<ColorBar> bars() const;
 

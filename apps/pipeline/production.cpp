@@ -1,5 +1,6 @@
 #include "apps/pipeline/production.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -26,6 +27,9 @@
 #include "apps/run/run_json.h"
 #include "apps/run/run_video.h"
 #include "apps/run/state_file.h"
+#include "apps/scene/idle_keys.h"
+#include "render/channel_png.h"
+#include "render/channels.h"
 #include "sim/integrator.h"
 #include "sim/mesh_io.h"
 
@@ -160,6 +164,22 @@ PipelineResult simulate_then_draw(Production& p, const sim::Model& model, Views&
   return {made.frames + drawn.frames, made.states, drawn.pictures, made.failure, drawn.error, false};
 }
 
+/// Numbers of triangles that pictures would have no room for.
+void check_png_ids(const SceneDesc& scene, const std::vector<sim::Surface>& surfaces) {
+  const std::vector<std::string>& channels = scene.render.channels;
+  if (scene.render.channel_format != "png" ||
+      std::find(channels.begin(), channels.end(), render::triangle_id_channel) == channels.end())
+    return;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    if (surfaces[i].triangles().size() <= static_cast<std::size_t>(render::most_png_number)) continue;
+    throw Error(
+        ExitStatus::wrong_input,
+        fmt::format("render.channels: 'triangle_id' of the {} triangles of '{}' does not fit into the 16 "
+                    "bits of a PNG, which tell {} apart; give render.channel_format = \"npy\" or \"exr\"",
+                    surfaces[i].triangles().size(), scene.body[i].physics.name, render::most_png_number));
+  }
+}
+
 /// Makes the missing frames, from the model on. Up to take_folder nothing is written; nullopt when stopped
 /// there.
 std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress& progress) {
@@ -167,10 +187,17 @@ std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress
   const std::vector<sim::Surface> surfaces = drawn_surfaces(p.scene, model, progress);
   Views views(p.scene, model, surfaces);
   if (p.renderer) {
+    check_png_ids(p.scene, surfaces);
     const render::RenderScene drawn = build_render_scene(p.scene, model, surfaces);
     for (const std::string& remark : render::renderer_remarks(p.scene.render, p.scene.camera, drawn))
       progress.note(remark);
     for (const std::string& remark : views.remarks()) progress.note(remark);
+    SceneDesc given = p.scene;
+    if (p.options.half) {  // its own doing
+      given.render.samples = render::RenderSettings().samples;
+      given.render.path.min_samples = render::PathSettings().min_samples;
+    }
+    for (const std::string& line : idle_keys(given)) progress.note(line);
     p.renderer->set_scene(drawn);
   }
   const auto integrator = sim::make_integrator(p.scene.time, p.scene.solver, model);
@@ -254,6 +281,22 @@ ExitStatus make_all(Production& p, RunResult& result, Progress& progress) {
   return ExitStatus::done;
 }
 
+/// Of those asked for: states, and pictures where some are drawn.
+std::string what_is_there(const Production& p, const RunResult& result) {
+  int frames = 0, pictures = 0;
+  for (int frame = p.frames.first; frame <= p.frames.last; frame += p.frames.every) {
+    const auto found = result.records.find(frame);
+    if (found == result.records.end()) continue;
+    ++frames;
+    pictures += found->second.picture ? 1 : 0;
+  }
+  const auto of_all = [&](int n, const char* what) {
+    return fmt::format("{} of {} {}{}", n, p.frames.count(), what, p.frames.count() == 1 ? "" : "s");
+  };
+  if (p.states != nullptr) return of_all(pictures, "picture");
+  return of_all(frames, "frame") + (p.renderer ? fmt::format(" and {}", of_all(pictures, "picture")) : "");
+}
+
 }  // namespace
 
 ExitStatus produce(Production p, Progress& progress) {
@@ -274,9 +317,8 @@ ExitStatus produce(Production p, Progress& progress) {
       progress.note(result_text(result));
       if (p.options.profile) std::fputs(profile_table(sim::profile(), result.seconds).c_str(), stderr);
     } else {
-      const std::string line =
-          fmt::format("interrupted with {} of {} frames there; the same command goes on from there",
-                      result.records.size(), p.scene.time.frames);
+      const std::string line = fmt::format("interrupted with {} there; the same command goes on from there",
+                                           what_is_there(p, result));
       tell("interrupted", line);
       std::fprintf(stderr, "lagomorph: %s\n", line.c_str());
     }

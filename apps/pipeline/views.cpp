@@ -151,14 +151,27 @@ void Views::color(render::Renderer& renderer, const View& view, const sim::VecX&
   }
 }
 
+/// Panels keep the same part free, so that what has no colour bar compares.
+double Views::bar_strip() const {
+  double strip = 0.0;
+  for (const std::unique_ptr<View>& v : views_)
+    strip =
+        std::max(strip, color_bar_strip(v->place.width, v->place.height, bars_of(v->fields, v->overlays)));
+  return strip;
+}
+
+render::Camera Views::camera(const View& view, int frame, const sim::VecX& q) const {
+  return view.rig.at(frame, q, view.rig.is_fitted() ? bar_strip() : 0.0);
+}
+
 render::Image Views::draw(render::Renderer& renderer, render::FrameInfo frame, const View& view,
-                          const sim::VecX& q, const sim::VecX* before) {
+                          const sim::VecX& q, const sim::VecX* before) const {
   std::optional<render::Camera> camera_before;
   if (before != nullptr && frame.frame > 0) {
-    camera_before = view.rig.at(frame.frame - 1, *before);
+    camera_before = camera(view, frame.frame - 1, *before);
     frame.camera_before = &*camera_before;
   }
-  return renderer.render(view.rig.at(frame.frame, q), frame);
+  return renderer.render(camera(view, frame.frame, q), frame);
 }
 
 render::Image Views::draw(render::Renderer& renderer, render::FrameInfo frame, const sim::VecX& q,
@@ -177,18 +190,27 @@ render::Image Views::draw(render::Renderer& renderer, render::FrameInfo frame, c
 
 render::Picture Views::finish(const render::Image& image, const sim::State& state,
                               const StateRecord& told) const {
-  const auto finished = [&](const View& view, const render::Image& drawn) {
-    return finish_picture({drawn, view.rig.at(state.frame, state.q), state, told}, view.scene, view.fields,
-                          view.overlays);
+  const auto finished = [&](const View& view, const render::Image& drawn, OverlayLayout layout) {
+    return finish_picture({drawn, camera(view, state.frame, state.q), state, told}, view.scene, view.fields,
+                          view.overlays, std::move(layout));
   };
-  if (scene_.panel.empty()) return cropped(finished(*views_.front(), image), scene_.render.drawn());
+  if (scene_.panel.empty()) {
+    const OverlayLayout layout(image.width(), image.height());
+    return cropped(finished(*views_.front(), image, layout), scene_.render.drawn());
+  }
   render::Picture whole{image.width(), image.height(), {}};
   const std::size_t pixels = static_cast<std::size_t>(whole.width) * static_cast<std::size_t>(whole.height);
   whole.rgb.resize(3 * pixels);
   if (scene_.render.transparent) whole.alpha.resize(pixels);
-  for (const std::unique_ptr<View>& view : views_)
-    paste(finished(*view, cropped(image, region_of(view->place))), view->place, whole);
-  draw_scene_caption(whole, scene_, state.frame, told);
+  const SceneCaption caption(scene_, state.frame, told);
+  for (const std::unique_ptr<View>& view : views_) {
+    const PanelPlace& place = view->place;
+    OverlayLayout layout(place.width, place.height);
+    if (const std::optional<Rectangle>& p = caption.plate())
+      layout.occupy({p->left - place.x, p->top - place.y, p->right - place.x, p->bottom - place.y});
+    paste(finished(*view, cropped(image, region_of(place)), std::move(layout)), place, whole);
+  }
+  caption.draw(whole);
   return whole;
 }
 

@@ -48,7 +48,7 @@ public:
   /// The picture of it: tone curve, overlays, colour bars, titles, caption. `told` is the state's record.
   render::Picture finish(const render::Image&, const sim::State&, const StateRecord& told) const;
   /// The camera, of the first panel where there are some.
-  render::Camera camera(int frame, const sim::VecX& q) const { return views_.front()->rig.at(frame, q); }
+  render::Camera camera(int frame, const sim::VecX& q) const { return camera(*views_.front(), frame, q); }
 
 private:
   struct View {
@@ -63,8 +63,10 @@ private:
   std::map<std::string, std::array<double, 2>> ranges() const;
   std::optional<std::array<double, 6>> fitted_box() const;
   void color(render::Renderer&, const View&, const sim::VecX& q) const;
-  static render::Image draw(render::Renderer&, render::FrameInfo, const View&, const sim::VecX& q,
-                            const sim::VecX* before);
+  double bar_strip() const;
+  render::Camera camera(const View&, int frame, const sim::VecX& q) const;
+  render::Image draw(render::Renderer&, render::FrameInfo, const View&, const sim::VecX& q,
+                     const sim::VecX* before) const;
 
   const SceneDesc& scene_;
   const std::vector<sim::Surface>& surfaces_;

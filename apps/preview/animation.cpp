@@ -27,12 +27,13 @@ struct Reel {
 /// Of the readable ones so many that there are at most `most` and, about, `rate` a second.
 Reel reel_of(const PreviewMaterial& m, const Shown& shown, std::size_t most, double rate) {
   const std::vector<const ShownFrame*> all = shown.readable();
-  const double there = m.fps / shown.every;
+  const double there = picture_rate(m) / shown.every;
   const auto every = static_cast<std::size_t>(
       std::max({1.0, std::round(there / rate),
                 std::ceil(static_cast<double>(all.size()) / static_cast<double>(most))}));
   Reel reel{.frames = {},
-            .rate = std::max(there / static_cast<double>(every), std::min(m.fps, slowest_rate))};
+            .rate = every == 1 ? there
+                               : std::max(there / static_cast<double>(every), std::min(there, slowest_rate))};
   for (std::size_t i = 0; i < all.size(); i += every) reel.frames.push_back(all[i]);
   return reel;
 }

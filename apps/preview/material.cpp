@@ -109,4 +109,14 @@ PreviewMaterial read_material(const fs::path& run, const std::optional<FrameRang
   return m;
 }
 
+double picture_rate(const PreviewMaterial& m) {
+  if (!m.info || m.pictures.size() < 2) return m.fps;
+  const std::vector<int> frames = frame_numbers(m.pictures);
+  std::vector<int> steps;
+  for (std::size_t i = 1; i < frames.size(); ++i) steps.push_back(frames[i] - frames[i - 1]);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>((steps.size() - 1) / 2);
+  std::nth_element(steps.begin(), middle, steps.end());  // a picture that is missing is no slower pace
+  return m.fps / *middle;
+}
+
 }  // namespace lagomorph::apps

@@ -32,6 +32,10 @@ struct PreviewMaterial {
 /// Error(wrong_input) when there is nothing to show.
 PreviewMaterial read_material(const std::filesystem::path& run, const std::optional<FrameRange>& frames);
 
+/// How many of the pictures there are to a second of the scene: fewer than its frames where only every
+/// so-many-th is drawn. [1/s]
+double picture_rate(const PreviewMaterial&);
+
 /// The numbers that frames go by in a map.
 std::vector<int> frame_numbers(const auto& frames) {
   std::vector<int> all;

@@ -172,7 +172,7 @@ std::string frames_json(const PreviewMaterial& m, const Shown& shown, const std:
                       static_cast<double>(std::max<std::size_t>(1, shown.readable().size()));
   return fmt::format(
       "<script id=\"frames\" type=\"application/json\">{{\"rate\":{:.6g},\"frames\":[{}]}}</script>\n",
-      m.fps / shown.every * kept, list);
+      picture_rate(m) / shown.every * kept, list);
 }
 
 std::string origin_html(const PreviewMaterial& m) {

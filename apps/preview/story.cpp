@@ -141,7 +141,8 @@ std::string headline(const PreviewMaterial& m) {
       "{}: {}", m.name,
       is_part ? fmt::format("{} of {}", n, counted(static_cast<std::size_t>(m.scene_frames), "frame"))
               : counted(n, "frame"));
-  if (n > 1) text += fmt::format(", {} at {:.4g} fps", seconds_text(static_cast<double>(n) / m.fps), m.fps);
+  const double rate = picture_rate(m);
+  if (n > 1) text += fmt::format(", {} at {:.4g} fps", seconds_text(static_cast<double>(n) / rate), rate);
   if (m.pictures.empty()) text += ", not drawn";
   if (const std::string steps = steps_text(m); !steps.empty()) text += ", " + steps;
   return text;
@@ -150,7 +151,7 @@ std::string headline(const PreviewMaterial& m) {
 Facts run_facts(const PreviewMaterial& m, const Shown& shown) {
   Facts facts = {{"frames", frames_text(m)}};
   if (m.info && m.pictures.size() + m.records.size() > 0) {
-    facts.emplace_back("rate", fmt::format("{:.4g} frames a second", m.fps));
+    facts.emplace_back("rate", fmt::format("{:.4g} frames a second", picture_rate(m)));
   }
   if (shown.picture.width > 0)
     facts.emplace_back("size", fmt::format("{} x {} pixels", shown.picture.width, shown.picture.height));

@@ -95,8 +95,10 @@ void refuse_others(const RunPaths& paths, const RunContents& contents, const Ide
       fmt::format(
           "{}: is another run: {}; --force makes anew what does not match ({}), --out writes elsewhere",
           paths.root().string(), text,
-          contents.other_states > 0 ? fmt::format("{} states and their pictures", contents.other_states)
-                                    : fmt::format("{} pictures", contents.other_pictures)));
+          contents.other_states == 1     ? "1 state and its picture"
+          : contents.other_states > 0    ? fmt::format("{} states and their pictures", contents.other_states)
+          : contents.other_pictures == 1 ? "1 picture"
+                                         : fmt::format("{} pictures", contents.other_pictures)));
 }
 
 void remove_unmatched(const RunPaths& paths, const RunContents& contents) {
@@ -114,7 +116,7 @@ void remove_unmatched(const RunPaths& paths, const RunContents& contents) {
   remove_frames(paths.pictures(), ".png", has_picture);
   for (const fs::path& folder : channel_folders(paths)) {
     const std::string channel = folder.filename().string();
-    for (const std::string& file : {channel, channel + exr_extension}) {
+    for (const std::string& file : {channel, channel + exr_extension, channel + png_extension}) {
       remove_frames(folder, paths.channel(file, 0).extension().string(), [&](int frame) {
         return has_picture(frame) && matching.at(frame).picture->channels.contains(file);
       });

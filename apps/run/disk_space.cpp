@@ -27,7 +27,8 @@ ExpectedSize expected_size(const std::vector<FrameJob>& jobs, int vertices, int 
     const auto cells = [&](int side) { return static_cast<std::size_t>((side + kind.cell - 1) / kind.cell); };
     const bool is_npy = render.channel_format == "npy" || name == render::statistics_channel;
     (is_npy ? channels : compressed) += cells(render.drawn().width()) * cells(render.drawn().height()) *
-                                        static_cast<std::size_t>(kind.components) * sizeof(float);
+                                        static_cast<std::size_t>(kind.components) *
+                                        (render.channel_format == "png" && !is_npy ? 2 : sizeof(float));
   }
   const std::size_t usual_share =
       render.backend == "path" ? 2 : 3;  // of 3 bytes a pixel; noise compresses less

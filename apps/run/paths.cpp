@@ -27,12 +27,9 @@ std::optional<int> frame_of(const fs::path& file, std::string_view extension) {
 fs::path RunPaths::state(int frame) const { return states() / frame_file(frame, ".npy"); }
 fs::path RunPaths::picture(int frame) const { return pictures() / frame_file(frame, ".png"); }
 fs::path RunPaths::record(int frame) const { return records() / frame_file(frame, ".json"); }
-fs::path RunPaths::channel(std::string_view name) const {
-  if (name.ends_with(exr_extension)) name.remove_suffix(std::string_view(exr_extension).size());
-  return channels() / name;
-}
+fs::path RunPaths::channel(std::string_view name) const { return channels() / channel_of(name); }
 fs::path RunPaths::channel(std::string_view name, int frame) const {
-  return channel(name) / frame_file(frame, name.ends_with(exr_extension) ? exr_extension : ".npy");
+  return channel(name) / frame_file(frame, channel_extension(name));
 }
 
 }  // namespace lagomorph::apps

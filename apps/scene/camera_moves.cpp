@@ -130,32 +130,50 @@ double CameraMoves::turn_at(int frame) const {
   return 2.0 * pi * turns;
 }
 
-/// Looks at the middle of the box, from as far as its outline is inside the picture but for the margins: a
-/// point at (x, y) across and z along the view from the middle is, at a distance d, where
-/// |x| <= half_width (d + z) and |y| <= half_height (d + z).
-void CameraMoves::fit(render::CameraSettings& c, const Eigen::AlignedBox3d& box) const {
+/// Looks at the middle of the box, from as far as its outline is inside the picture but for the margins and
+/// the strip: a point at (x, y) across and z along the view from the middle is, at a distance d, where |y| <=
+/// height (d + z) and, of a camera that is moved by s to its right,
+///   -left (d + z) <= x - s <= right (d + z).
+/// Without a strip s is 0. Some s does for all points where d (left + right) >= max(x - right z) + max(-x -
+/// left z). That s, the nearest to where the middle of the box is in the middle of what is free. [m]
+double CameraMoves::fit(render::CameraSettings& c, const Eigen::AlignedBox3d& box, double strip) const {
   const Vec3 middle = box.center();
   if (camera_.frame == "center") {
     c.look_at = middle.cast<float>();
-    return;
+    return 0.0;
   }
   const Vec3 forward = (c.look_at - c.position).cast<double>().normalized();
   const Vec3 right = forward.cross(c.up.cast<double>()).normalized(), up = right.cross(forward);
   const double inside = 1.0 - 2.0 * static_cast<double>(camera_.margin);
-  const double half_height = inside * std::tan(static_cast<double>(c.fov) * pi / 360.0);
+  const double kept = std::min({strip, 0.5, 0.75 * inside});
+  const double half_height = std::tan(static_cast<double>(c.fov) * pi / 360.0),
+               half_width = aspect_ * half_height;
+  const double to_left = half_width * inside, to_right = half_width * (inside - 2.0 * kept);
   constexpr double least = 1e-3;  // of a body that is a point [m]
-  double distance = least, height = least;
-  for (const Vec3& p : outline(box, camera_.turntable.turns || camera_.turntable.period)) {
-    const double across = std::max(std::abs(p.dot(right)) / aspect_, std::abs(p.dot(up)));
-    distance = std::max(distance, (c.orthographic ? 2.0 * p.norm() : across / half_height) - p.dot(forward));
-    height = std::max(height, 2.0 * across / inside);
+  const std::vector<Vec3> points = outline(box, camera_.turntable.turns || camera_.turntable.period);
+  double distance = least, height = least, reach_right = 0.0, reach_left = 0.0;
+  for (const Vec3& p : points) {
+    const double x = p.dot(right), y = std::abs(p.dot(up)), z = p.dot(forward);
+    distance = std::max(distance, c.orthographic ? 2.0 * p.norm() - z : y / (half_height * inside) - z);
+    height = std::max({height, 2.0 * y / inside, 2.0 * std::abs(x) / (aspect_ * (inside - kept))});
+    reach_right = std::max(reach_right, x - to_right * z);
+    reach_left = std::max(reach_left, -x - to_left * z);
   }
+  const double across = strip == 0.0 ? std::max(reach_right, reach_left) / to_right
+                                     : (reach_right + reach_left) / (to_left + to_right);
+  if (!c.orthographic) distance = std::max(distance, across);
   if (c.orthographic) c.orthographic = static_cast<float>(height);
   c.look_at = middle.cast<float>();
   c.position = (middle - distance * forward).cast<float>();
+  if (strip == 0.0) return 0.0;
+  if (c.orthographic) return 0.5 * kept * aspect_ * height;
+  // The strip is 2 kept of the view's half widths: its middle is kept of one to the left of the picture's.
+  return std::clamp(kept * half_width * distance, reach_right - to_right * distance,
+                    std::max(reach_right - to_right * distance, to_left * distance - reach_left));
 }
 
-render::CameraSettings CameraMoves::at(int frame, const std::optional<Eigen::AlignedBox3d>& box) const {
+render::CameraSettings CameraMoves::at(int frame, const std::optional<Eigen::AlignedBox3d>& box,
+                                       double strip) const {
   render::CameraSettings c = camera_;
   const double t = frame / fps_;
   if (const auto v = position_.at(t)) c.position = vector_of(*v);
@@ -166,11 +184,16 @@ render::CameraSettings CameraMoves::at(int frame, const std::optional<Eigen::Ali
   if (const auto v = focus_distance_.at(t)) c.focus_distance = number_of(*v);
   if (const auto v = f_stop_.at(t)) c.f_stop = number_of(*v);
   look_from(c, camera_.view);
-  if (camera_.frame != "none" && box && !box->isEmpty()) fit(c, *box);
+  double aside = 0.0;  // to the right, for the strip [m]
+  if (camera_.frame != "none" && box && !box->isEmpty()) aside = fit(c, *box, strip);
   if (const double angle = turn_at(frame); angle != 0.0) turn(c, angle);
   const auto keyed = zoom_.at(t);
   const float zoom = keyed ? number_of(*keyed) : camera_.zoom;
   if (zoom != 1.0F) magnify(c, static_cast<double>(zoom));
+  if (aside != 0.0) {
+    const Vec3 right = (c.look_at - c.position).cross(c.up).cast<double>().normalized();
+    shift(c, aside / static_cast<double>(zoom) * right);
+  }
   return c;
 }
 

@@ -20,8 +20,10 @@ public:
   /// `aspect` is the picture's width over its height.
   CameraMoves(const CameraDesc&, const sim::TimeSettings&, double aspect);
 
-  /// `box` is what camera.frame aims at; none where nothing is known of it yet.
-  render::CameraSettings at(int frame, const std::optional<Eigen::AlignedBox3d>& box) const;
+  /// `box` is what camera.frame aims at; none where nothing is known of it yet. It is fitted into what a
+  /// strip at the right leaves, which is this part of the picture's width, at most half.
+  render::CameraSettings at(int frame, const std::optional<Eigen::AlignedBox3d>& box,
+                            double strip = 0.0) const;
 
 private:
   /// A quantity over time, where some key gives it.
@@ -30,7 +32,7 @@ private:
     std::optional<sim::VecX> at(double t) const;
   };
   Track track_of(int size, const auto& value) const;
-  void fit(render::CameraSettings&, const Eigen::AlignedBox3d&) const;
+  double fit(render::CameraSettings&, const Eigen::AlignedBox3d&, double strip) const;
   double turn_at(int frame) const;
 
   CameraDesc camera_;

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,21 +16,47 @@
 namespace lagomorph::apps {
 namespace {
 
+/// Where what is wrong with some keys stands: an override's place, where one of them is given by one, or the
+/// first that is given.
+std::string place_of_any(const std::vector<std::string>& keys, const Places& places) {
+  for (const std::string& key : keys)
+    if (places.has(key) && places.of(key).starts_with("--set ")) return places.of(key);
+  for (const std::string& key : keys)
+    if (places.has(key)) return places.of(key);
+  return places.of(keys.back());
+}
+
+/// Keys by which a frame's camera has one of these quantities, the nearest first.
+std::vector<std::string> keys_of_camera(const CameraDesc& c, const std::string& name,
+                                        const std::vector<const char*>& quantities) {
+  std::vector<std::string> keys;
+  for (const char* const quantity : quantities)
+    if (name != "camera") keys.push_back(fmt::format("{}.{}", name, quantity));
+  for (std::size_t i = 0; i < c.key.size(); ++i)
+    for (const char* const quantity : quantities)
+      keys.push_back(fmt::format("camera.key.{}.{}", i, quantity));
+  for (const char* const quantity : quantities) keys.push_back(fmt::format("camera.{}", quantity));
+  return keys;
+}
+
 /// `name` is "camera" in messages, `when` "in frame 3 " where there are many.
-void check_frame(const render::CameraSettings& c, const std::string& when, const std::string& name,
-                 const Places& places) {
+void check_frame(const CameraDesc& camera, const render::CameraSettings& c, const std::string& when,
+                 const std::string& name, const Places& places) {
   // In double precision, where the squares of large floats do not overflow.
   const Eigen::Vector3d view = c.look_at.cast<double>() - c.position.cast<double>();
   const Eigen::Vector3d up = c.up.cast<double>();
   if (view.norm() == 0.0) {
-    const char* key = places.has("camera.look_at") ? "camera.look_at" : "camera.position";
-    wrong_input(
-        fmt::format("{}{}{}.position and {}.look_at are the same point", places.of(key), when, name, name));
+    wrong_input(fmt::format("{}{}{}.position and {}.look_at are the same point",
+                            place_of_any(keys_of_camera(camera, name, {"look_at", "position"}), places), when,
+                            name, name));
   }
   // Below some ten units in the last place of a float the picture's axes are noise.
   if (up.normalized().cross(view.normalized()).norm() < 1e-6) {
     const char* fault = up.norm() == 0.0 ? "must not be 0" : "must not be along the view";
-    wrong_input(fmt::format("{}{}{}.up {}", places.of("camera.up"), when, name, fault));
+    wrong_input(
+        fmt::format("{}{}{}.up {}",
+                    place_of_any(keys_of_camera(camera, name, {"up", "look_at", "position", "view"}), places),
+                    when, name, fault));
   }
 }
 
@@ -57,8 +85,8 @@ void check_moves(const SceneDesc& scene, const std::string& name, const Places& 
   const CameraMoves moves(c, scene.time, static_cast<double>(scene.render.width) / scene.render.height);
   const int last = c.key.empty() ? 0 : std::min(scene.time.frames, most) - 1;
   for (int frame = 0; frame <= last; ++frame) {
-    check_frame(moves.at(frame, std::nullopt), c.key.empty() ? "" : fmt::format("in frame {} ", frame), name,
-                places);
+    check_frame(c, moves.at(frame, std::nullopt), c.key.empty() ? "" : fmt::format("in frame {} ", frame),
+                name, places);
   }
 }
 

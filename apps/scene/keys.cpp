@@ -133,6 +133,12 @@ void visit_surface(SurfaceDesc& s, KeyVisitor& v) {
          .meaning = "how far a fine vertex may lie outside of the tets, as a fraction of the body's "
                     "bounding-box diagonal"},
         &s.max_outside);
+  v.key({.name = "subdivide",
+         .bounds = between(0, 4),
+         .meaning =
+             "times the tets' boundary or the fine mesh is subdivided by Loop's scheme, each into four times "
+             "the triangles: a smooth surface of a coarse mesh"},
+        &s.subdivide);
   v.key({.name = "smooth", .meaning = "smooth normals; false: one a triangle"}, &s.smooth);
   v.key(
       {.name = "flip", .meaning = "its other side is the outside: for meshes whose triangles are inside out"},
@@ -306,7 +312,9 @@ void visit_render(render::RenderSettings& r, KeyVisitor& v) {
          .choices = render::channel_names},
         &r.channels);
   v.key({.name = "channel_format",
-         .meaning = "of their files: NumPy arrays, OpenEXR, or one OpenEXR for the picture and all of them",
+         .meaning =
+             "of their files: NumPy arrays, OpenEXR, one OpenEXR for the picture and all of them, or 16-bit "
+             "PNG of those that fit",
          .choices = channel_formats},
         &r.channel_format);
   v.key({.name = "transparent",

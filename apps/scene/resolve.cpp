@@ -13,6 +13,8 @@
 #include "apps/scene/read.h"
 #include "apps/scene/scene.h"
 #include "apps/utf8.h"
+#include "render/channel_png.h"
+#include "render/channels.h"
 #include "sim/error.h"
 #include "sim/materials/presets.h"
 #include "sim/materials/table.h"
@@ -212,6 +214,13 @@ void check_looks(const SceneDesc& scene, const Places& places) {
   for (const std::string& channel : scene.render.channels) {
     if (!channels.insert(channel).second) {
       wrong_input(fmt::format("{}render.channels has '{}' twice", places.of("render.channels"), channel));
+    }
+    if (scene.render.channel_format == "png" && channel != render::statistics_channel &&
+        !render::fits_png(channel)) {
+      wrong_input(
+          fmt::format("{}render.channels: '{}' has values that a PNG does not hold; give "
+                      "render.channel_format = \"npy\" or \"exr\"",
+                      places.of("render.channels"), channel));
     }
   }
 }

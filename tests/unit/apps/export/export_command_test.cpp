@@ -65,5 +65,17 @@ TEST_F(ExportCommand, SaysWhatIsWrong) {
   EXPECT_FALSE(std::filesystem::exists(at("run/export")));
 }
 
+/// One of coarse tets is exported as smooth as it is drawn.
+TEST_F(ExportCommand, WritesTheSubdividedSurface) {
+  expect(0, simulate("run", {"--set", "body.0.surface={ mesh = '', subdivide = 1 }"}));
+  const nlohmann::json sizes = run_json("run").at("mesh").at("bodies").at(0);
+  exported({"--format", "ply", "--frames", "2", "--fields", "von_mises"});
+  sim::Remarks remarks;
+  const sim::TriMesh ply = sim::read_tri_mesh(at("run/export/frame_0002.ply"), remarks);
+  EXPECT_EQ(ply.triangles.size(), sizes.at("surface_triangles").get<std::size_t>());
+  EXPECT_EQ(ply.X.rows(), 2 + static_cast<Eigen::Index>(ply.triangles.size()) / 2) << "closed";
+  EXPECT_EQ(ply.triangles.size() % 4, 0U);
+}
+
 }  // namespace export_command_test
 }  // namespace lagomorph::tests

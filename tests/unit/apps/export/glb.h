@@ -34,7 +34,8 @@ public:
   std::vector<T> values(std::size_t index) const {
     const nlohmann::json& accessor = json["accessors"].at(index);
     const nlohmann::json& view = json["bufferViews"].at(accessor["bufferView"].get<std::size_t>());
-    const std::size_t n = accessor["type"] == "VEC3" ? 3 : 1, count = accessor["count"];
+    const std::string type = accessor["type"];
+    const std::size_t n = type == "VEC4" ? 4 : type == "VEC3" ? 3 : 1, count = accessor["count"];
     EXPECT_EQ(accessor["componentType"], (std::is_same_v<T, float> ? 5126 : 5125));
     const std::size_t offset = view["byteOffset"], size = view["byteLength"], inside = accessor["byteOffset"];
     EXPECT_EQ(offset % 4, 0U);

@@ -154,6 +154,54 @@ TEST_F(ExportSequence, UsdHasSamplesByFrame) {
   }
 }
 
+/// A turntable of eight frames, of which these are three: a quarter of a turn in two.
+TEST_F(ExportSequence, TheCameraMovesAsInThePictures) {
+  expect(0, simulate("run",
+                     {"--set", "time.frames=8", "--set", "camera.turntable.turns=1", "--set",
+                      "camera.position=[0,0.3,2]", "--set", "camera.look_at=[0,0.3,0]", "--frames", "0..3"}));
+  exported("gltf", {"--frames", "1..3"});
+  const Glb glb(read_all(at("run/export/bar.glb")));
+  const Json& animation = glb.json["animations"].at(0);
+  ASSERT_EQ(animation["channels"].size(), 3U);
+  EXPECT_EQ(animation["channels"][1]["target"], Json::parse(R"({"node": 1, "path": "translation"})"));
+  EXPECT_EQ(animation["channels"][2]["target"], Json::parse(R"({"node": 1, "path": "rotation"})"));
+  const std::vector<float> to = glb.values<float>(animation["samplers"].at(1)["output"]),
+                           turned = glb.values<float>(animation["samplers"].at(2)["output"]);
+  ASSERT_EQ(to.size(), 9U);
+  ASSERT_EQ(turned.size(), 12U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double angle = (static_cast<double>(k) + 1.0) * M_PI / 4;  // about +y, and so does it look
+    EXPECT_NEAR(to[3 * k], 2.0 * std::sin(angle), 1e-6);
+    EXPECT_NEAR(to[3 * k + 1], 0.3, 1e-6);
+    EXPECT_NEAR(to[3 * k + 2], 2.0 * std::cos(angle), 1e-6);
+    EXPECT_NEAR(turned[4 * k + 1], std::sin(angle / 2), 1e-6);
+    EXPECT_NEAR(turned[4 * k + 3], std::cos(angle / 2), 1e-6);
+  }
+  EXPECT_EQ(glb.json["nodes"].at(1)["translation"][0].get<float>(), to[0]) << "the first frame's";
+
+  exported("usda", {"--frames", "1..3"});
+  const std::string usd = read_all(at("run/export/bar.usda"));
+  const std::size_t begin = usd.find("matrix4d xformOp:transform.timeSamples = {");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string samples = usd.substr(begin, usd.find('}', begin) - begin);
+  for (const char* frame : {" 1: ( (", " 2: ( (", " 3: ( ("})
+    EXPECT_NE(samples.find(frame), std::string::npos) << samples;
+  EXPECT_NE(samples.find("(2, 0.3, "), std::string::npos) << samples;
+  EXPECT_NE(usd.find("float focalLength = "), std::string::npos) << "the same in all frames";
+}
+
+TEST_F(ExportSequence, AZoomIsInUsdAndToldOfGltf) {
+  expect(0, simulate("run", {"--set", "camera.key=[{ frame = 0, fov = 40 }, { frame = 3, fov = 20 }]"}));
+  exported("usda");
+  const std::string usd = read_all(at("run/export/bar.usda"));
+  EXPECT_NE(usd.find("float focalLength.timeSamples = {\n            0: 32.9697"), std::string::npos)
+      << "12 mm / tan(20 degrees)";
+  EXPECT_NE(usd.find("            3: 68.0553"), std::string::npos);
+  const Ended ended = run_program({"export", at("run").string(), "--format", "gltf"});
+  EXPECT_NE(ended.err.find("the camera keeps its field of view of frame 0 in a .glb"), std::string::npos)
+      << ended.err;
+}
+
 TEST(PrimNames, AreIdentifiersAndEachItsOwn) {
   EXPECT_EQ(apps::prim_names({"bar", "2nd bar", "ear.left", "bar", "", "ear left"}),
             (std::vector<std::string>{"bar", "_2nd_bar", "ear_left", "bar_2", "_", "ear_left_2"}));

@@ -1,6 +1,7 @@
 #include "apps/overlay/caption.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -47,7 +48,8 @@ Drawn drawn(const std::string& text, const std::string& place, int width = 320, 
   const render::Picture plain{width, height,
                               std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width * height), 128)};
   render::Picture picture = plain;
-  draw_caption(picture, text, place);
+  OverlayLayout layout(width, height);
+  if (const auto plate = place_caption(layout, text, place)) draw_caption(picture, text, *plate);
   Drawn d{width, -1, height, -1};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -76,6 +78,31 @@ TEST(Caption, StandsWhereItIsToStand) {
 TEST(Caption, KeepsItsPlateWhileDigitsChange) {
   const Drawn one = drawn("frame 111", "bottom_left"), two = drawn("frame 888", "bottom_left");
   EXPECT_EQ(one.right, two.right);
+}
+
+/// As much of the plate is on the left of the letters as on their right, of titles and of captions with
+/// digits.
+TEST(Caption, StandsInTheMiddleOfItsPlate) {
+  const int width = 640, height = 360;
+  for (const std::string text : {"0.5 MPa", "a stiff bunny", "t = 11.11 s", "frame 888"}) {
+    OverlayLayout layout(width, height);
+    const Rectangle plate = place_caption(layout, text, "top").value();
+    render::Picture with{width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height, 128)},
+        bare = with;
+    draw_caption(with, text, plate);
+    draw_plate(bare, plate);
+    int first = width, last = -1;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const auto at = static_cast<std::size_t>(3 * (y * width + x));
+        if (with.rgb[at] != bare.rgb[at]) first = std::min(first, x), last = std::max(last, x);
+      }
+    }
+    const double left = first - plate.left, right = plate.right - 1 - last;
+    const bool has_ones = text.find('1') != std::string::npos;  // narrower than the widest digit
+    EXPECT_LE(std::abs(left - right), has_ones ? 16.0 : 2.0) << text;
+    EXPECT_GE(std::min(left, right), 5.0) << text;
+  }
 }
 
 TEST(Caption, IsNotDrawnWhereThereIsNoRoom) {

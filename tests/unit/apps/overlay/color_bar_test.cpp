@@ -11,6 +11,11 @@
 namespace lagomorph::apps {
 namespace color_bar_test {
 
+void draw_bars(render::Picture& picture, const std::vector<ColorBar>& bars) {
+  OverlayLayout layout(picture.width, picture.height);
+  draw_color_bars(picture, bars, place_color_bars(layout, bars));
+}
+
 using Rgb = std::array<std::uint8_t, 3>;
 
 render::Picture plain(int width, int height, std::uint8_t value) {
@@ -65,7 +70,7 @@ TEST(ColorBar, TicksStandAtTheirValues) {
 TEST(ColorBar, ShowsTheMapFromBelowUpwards) {
   for (const std::uint8_t ground : {std::uint8_t{0}, std::uint8_t{128}, std::uint8_t{255}}) {
     render::Picture picture = plain(640, 360, ground);
-    draw_color_bars(picture, {stress()});
+    draw_bars(picture, {stress()});
     const auto near = [&](int x, int y, float value) {
       const auto wanted = render::srgb_of(render::find_colormap("viridis"), value);
       const Rgb is = pixel(picture, x, y);
@@ -108,7 +113,7 @@ TEST(ColorBar, ReadsOnLightAndDark) {
 
 int changed_columns(int width, int height) {
   render::Picture picture = plain(width, height, 255);
-  draw_color_bars(picture, {stress()});
+  draw_bars(picture, {stress()});
   int count = 0;
   for (int x = 0; x < width; ++x) {
     bool changed = false;
@@ -125,12 +130,24 @@ TEST(ColorBar, GrowsWithThePicture) {
   EXPECT_EQ(changed_columns(24, 16), 0) << "no room";
 }
 
+/// Of a panel half as wide it takes no larger part.
+TEST(ColorBar, ShrinksWithItsPanel) {
+  for (const auto& [width, height] : {std::array{1278, 720}, std::array{638, 720}, std::array{638, 358},
+                                      std::array{424, 238}, std::array{320, 480}, std::array{1080, 1920}}) {
+    const double strip = color_bar_strip(width, height, {stress()});
+    EXPECT_GT(strip, 0.05) << width << " x " << height;
+    EXPECT_LT(strip, 0.27) << width << " x " << height;
+  }
+  EXPECT_EQ(color_bar_strip(640, 360, {}), 0.0);
+  EXPECT_EQ(color_bar_strip(24, 16, {stress()}), 0.0) << "no room";
+}
+
 TEST(ColorBar, SeveralStandBesideEachOther) {
   render::Picture one = plain(1280, 720, 255), two = one, none = one;
   const ColorBar other{"volume ratio J", "", &render::find_colormap("coolwarm"), 0.9, 1.1};
-  draw_color_bars(one, {stress()});
-  draw_color_bars(two, {stress(), other});
-  draw_color_bars(none, {});
+  draw_bars(one, {stress()});
+  draw_bars(two, {stress(), other});
+  draw_bars(none, {});
   EXPECT_EQ(none.rgb, plain(1280, 720, 255).rgb);
   for (int y = 0; y < 720; ++y) {
     for (int x = 0; x < 1280; ++x) {

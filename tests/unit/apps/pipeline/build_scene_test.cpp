@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/npy.h"
+#include "apps/pipeline/surface_fields.h"
 #include "apps/scene/scene.h"
 #include "sim/error.h"
 #include "tests/support/run_tree.h"
@@ -156,6 +157,28 @@ TEST(BuildScene, BodiesMoveAsFilesSay) {
             wrong + ": has a value that is not finite");
   EXPECT_TRUE(told({bottom, "body.0.pin.1.path='gone.npy'"}).ends_with("there is no such file"));
   EXPECT_TRUE(told({bottom, "body.0.pin.1.path='gone.txt'"}).ends_with("known are .npy"));
+}
+
+/// Of the tets' boundary and of the fine mesh; what is embedded moves as the tets do.
+TEST(BuildScene, SurfacesAreSubdivided) {
+  Progress quiet(true);
+  for (const std::string mesh : {"body.0.surface.mesh=''", "body.0.surface.max_outside=0.01"}) {
+    const SceneDesc coarse = bar_scene({mesh}), fine = bar_scene({mesh, "body.0.surface.subdivide=2"});
+    const sim::Model model = build_model(coarse, quiet);
+    const sim::Surface before = build_surfaces(coarse, model, quiet).at(0),
+                       after = build_surfaces(fine, model, quiet).at(0);
+    EXPECT_EQ(after.triangles().size(), 16 * before.triangles().size());
+    const auto drawn = build_render_scene(fine, model, build_surfaces(fine, model, quiet));
+    EXPECT_EQ(drawn.meshes.at(0).triangles.size(), after.triangles().size());
+    // A constant field is carried as such, a linear one as positions are.
+    const std::vector<double> ones(static_cast<std::size_t>(model.mesh().vertex_count()), 1.0);
+    for (const double one : surface_values(after, ones)) EXPECT_NEAR(one, 1.0, 1e-14);
+  }
+  const SceneDesc cut =
+      bar_scene({"body.0.surface.subdivide=2", "clip={ point = [0, 0.3, 0], normal = [0, 1, 0] }"});
+  const sim::Model model = build_model(cut, quiet);
+  const std::vector<sim::Surface> surfaces = drawn_surfaces(cut, model, quiet);
+  EXPECT_TRUE(surfaces.at(0).coarse_edges().empty());
 }
 
 }  // namespace build_scene_test

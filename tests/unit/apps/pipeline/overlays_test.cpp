@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include <gtest/gtest.h>
 
 #include "apps/error.h"
+#include "apps/npy.h"
 #include "apps/pipeline/build_scene.h"
 #include "apps/scene/scene.h"
 #include "tests/support/pictures.h"
@@ -180,6 +182,59 @@ TEST_F(OverlayRuns, ABodyOfLinesAloneAndACutOneAreDrawnByBoth) {
   expect(0, simulate("plain", {"--set", "time.frames=2"}));
   EXPECT_EQ(tests::read_all(at("raster_cut") / "states/frame_0001.npy"),
             tests::read_all(at("plain") / "states/frame_0001.npy"));
+}
+
+/// The wireframe of a subdivided surface is of as many lines as that of the coarse one; its ghost has all
+/// edges, so that its outline is found.
+TEST(Overlays, ASubdividedSurfaceHasTheCoarseLines) {
+  const std::vector<std::string> tets = {"body.0.surface.mesh=''"},
+                                 smooth = tets + std::vector<std::string>{"body.0.surface.subdivide=2"};
+  const Bar coarse(tets), fine(smooth);
+  const BodyLines before = lines_of(coarse.scene, coarse.model, coarse.surfaces, 0, "surface"),
+                  after = lines_of(fine.scene, fine.model, fine.surfaces, 0, "surface");
+  EXPECT_EQ(after.mesh.edges.size(), 4 * before.mesh.edges.size());
+  EXPECT_EQ(after.mesh.triangles.size(), 16 * before.mesh.triangles.size());
+  EXPECT_EQ(lines_of_surface(fine.surfaces[0]).mesh.edges.size(), 16 * before.mesh.edges.size());
+  // Not the lines between the four triangles that a quadratic face is drawn by.
+  const Bar quadratic(smooth + std::vector<std::string>{"body.0.element=quadratic"});
+  EXPECT_EQ(lines_of(quadratic.scene, quadratic.model, quadratic.surfaces, 0, "surface").mesh.edges.size(),
+            4 * lines_of_all_tets(quadratic.model, 0).mesh.edges.size());
+  const std::string wire = "body.0.wireframe.show=true";
+  const int straight = Bar(tets + std::vector<std::string>{wire}).pixels(),
+            curved = Bar(smooth + std::vector<std::string>{wire}).pixels();
+  EXPECT_NEAR(curved, straight, 0.25 * straight);
+  const Bar cut(smooth + std::vector<std::string>{"clip={ point = [0, 0.3, 0], normal = [0, 1, 0] }"});
+  ASSERT_EQ(cut.overlays.remarks().size(), 1U);
+  EXPECT_EQ(cut.overlays.remarks()[0], "body.0.surface.subdivide has no effect: clip shows the tets");
+}
+
+/// Both back ends see the same fine triangles, and motion blur and vectors know where they were.
+TEST_F(OverlayRuns, BothBackEndsDrawTheSmoothSurface) {
+  const Arguments with = {"--set", "body.0.surface={ mesh = '', subdivide = 2 }",  "--set", "time.frames=2",
+                          "--set", "render.channels=[\"triangle_id\", \"motion\"]"};
+  std::map<std::string, std::vector<float>> ids, motion;
+  for (const char* const backend : {"raster", "path"}) {
+    backend_ = backend;
+    expect(0, run(backend, with));
+    const auto read = [&](const char* channel) {
+      const auto file = at(backend) / "aov" / channel / "frame_0001.npy";
+      return read_npy_floats(tests::read_all(file), file.string()).values;
+    };
+    ids[backend] = read("triangle_id");
+    motion[backend] = read("motion");
+  }
+  int seen = 0, differ = 0;
+  for (std::size_t i = 0; i < ids["path"].size(); ++i) {
+    seen += ids["path"][i] >= 0.0F ? 1 : 0;
+    if (ids["path"][i] != ids["raster"][i]) {
+      ++differ;
+      continue;
+    }
+    EXPECT_NEAR(motion["path"][2 * i + 1], motion["raster"][2 * i + 1], 0.01F);
+  }
+  EXPECT_GT(seen, 100);
+  EXPECT_LE(differ, seen / 50);
+  EXPECT_GT(*std::max_element(ids["path"].begin(), ids["path"].end()), 200.0F);
 }
 
 }  // namespace overlays_test

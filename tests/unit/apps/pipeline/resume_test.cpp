@@ -124,6 +124,8 @@ TEST_P(Interrupt, LeavesWholeRecordsAndSaysHowToGoOn) {
   EXPECT_EQ(ended.status, 128 + GetParam());
   EXPECT_TRUE(ended.err.starts_with("lagomorph: interrupted with ")) << ended.err;
   EXPECT_NE(ended.err.find("the same command goes on"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find(" of 40 frames and "), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find(" of 40 pictures there"), std::string::npos) << ended.err;
   const auto files = tree(at("r"));
   const nlohmann::json frames = run_json("r").at("frames");
   EXPECT_GE(frames.size(), 4U);

@@ -88,6 +88,24 @@ TEST_F(PreviewCommand, ShowsPartOfARun) {
             Json::parse(R"(["a picture is missing between the first and the last: 2"])"));
 }
 
+/// Pictures of every second frame play half as many a second.
+TEST_F(PreviewCommand, PlaysAtThePaceOfTheScene) {
+  expect(0, run("run", {"--every", "2", "--set", "time.frames=8"}));
+  const Json json = json_of("run");
+  EXPECT_EQ(json["headline"], "bar: 4 of 8 frames, 0.27 s at 15 fps, all steps converged");
+  int animations = 0;
+  for (const Json& file : json["files"]) {
+    if (!file.contains("fps")) continue;
+    EXPECT_EQ(file["fps"], 15.0) << file;
+    ++animations;
+  }
+  EXPECT_EQ(animations, 2);
+  EXPECT_TRUE(contains(made("run", "index.html"), "{\"rate\":15,")) << "the player";
+  // One that is missing does not slow them down.
+  std::filesystem::remove(at("run/frames/frame_0004.png"));
+  EXPECT_TRUE(contains(json_of("run")["headline"], "at 15 fps"));
+}
+
 TEST_F(PreviewCommand, ShowsASimulationAndSaysHowToDrawIt) {
   expect(0, simulate("it's"));
   dir_.write("it's/preview/contact_sheet.png", "of an earlier preview");

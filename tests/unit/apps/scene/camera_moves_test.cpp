@@ -192,7 +192,52 @@ TEST(CameraMoves, WrongKeysAreTold) {
             "left, right, top, bottom, isometric");
   EXPECT_EQ(error_of(key + "frame = 0\nposition = [0, 0, 3]\nlook_at = [0, 0, 0]\n" + key +
                      "frame = 4\nposition = [0, 0, -3]\n[camera]\ninterpolation = \"linear\""),
-            "a.toml:8:1: in frame 2 camera.position and camera.look_at are the same point");
+            "a.toml:4:11: in frame 2 camera.position and camera.look_at are the same point");
+}
+
+/// The box is in what the strip and the margins leave and touches their border; on a turntable at every turn.
+TEST(CameraMoves, LeaveAStripFree) {
+  using sim::Vec3;
+  const Eigen::AlignedBox3d box(Vec3(-0.5, 0.1, -0.3), Vec3(0.7, 1.3, 0.9)),
+      wide(Vec3(-5, 0, -1), Vec3(3, 0.5, 1));
+  constexpr double strip = 0.2, margin = 0.05, slack = 1e-4;
+  const auto check = [&](const std::string& text, const Eigen::AlignedBox3d& of, bool turns) {
+    const SceneDesc scene =
+        scene_of("[time]\nframes = 8\n[camera]\nframe = \"motion\"\nposition = [1, 2, 3]\n" + text);
+    const double width = scene.render.width, height = scene.render.height;
+    for (int frame = 0; frame < (turns ? 8 : 1); ++frame) {
+      const render::Camera camera(moves_of(scene).at(frame, of, strip), scene.render.width,
+                                  scene.render.height);
+      double left = 1.0, right = 0.0, top = 1.0, bottom = 0.0;
+      for (int i = 0; i < 8; ++i) {
+        const Vec3 corner = of.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+        const render::Vec2 at = camera.project(corner.cast<float>());
+        left = std::min(left, at.x() / width);
+        right = std::max(right, at.x() / width);
+        top = std::min(top, at.y() / height);
+        bottom = std::max(bottom, at.y() / height);
+      }
+      EXPECT_GE(left, margin - slack) << text << frame;
+      EXPECT_LE(right, 1.0 - strip - margin + slack) << text << frame;
+      EXPECT_GE(top, margin - slack) << text << frame;
+      EXPECT_LE(bottom, 1.0 - margin + slack) << text << frame;
+      const bool across = left < margin + slack && right > 1.0 - strip - margin - slack;
+      EXPECT_TRUE(turns || across || std::min(top, 1.0 - bottom) < margin + slack) << text;
+    }
+  };
+  for (const std::string size :
+       {"[render]\nwidth = 640\nheight = 360", "[render]\nwidth = 300\nheight = 400"}) {
+    for (const std::string projection : {"", "orthographic = 2\n", "fov = 90\n"}) {
+      for (const Eigen::AlignedBox3d& of : {box, wide}) {
+        check(projection + size, of, false);
+        check(projection + "turntable = { turns = 1 }\n" + size, of, true);
+      }
+    }
+  }
+  // Zoom magnifies the middle of what is free.
+  const SceneDesc scene = scene_of("[camera]\nframe = \"rest\"\nzoom = 2");
+  const render::Camera camera(moves_of(scene).at(0, box, strip), 1280, 720);
+  EXPECT_NEAR(camera.project(box.center().cast<float>()).x(), 0.4F * 1280, 40.0F);
 }
 
 }  // namespace camera_moves_test

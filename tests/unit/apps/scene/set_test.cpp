@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/error.h"
 #include "apps/scene/scene.h"
 
 namespace lagomorph::apps {
@@ -104,6 +105,29 @@ bottom = 1
   EXPECT_EQ(pin.plane->normal, sim::Vec3(0, 2, 0));
   EXPECT_EQ(pin.top, 0.1);
   EXPECT_EQ(pin.bottom, 1.0);
+}
+
+/// What is found late, over all frames, is told where it was given, though the file gives the camera too.
+TEST(Set, WrongCamerasAreToldWithTheirOverride) {
+  const std::string file =
+      "[camera]\nposition = [0, 1, 3]\nlook_at = [0, 1, 0]\nup = [0, 1, 0]\n"
+      "[[camera.key]]\nframe = 0\nfov = 30\n[[body]]\nmesh = \"a.msh\"";
+  const auto told = [&](const std::string& override_text) {
+    try {
+      parse_scene(file, "RUN/scene.toml", std::vector<std::string>{override_text});
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string("no error");
+  };
+  for (const std::string set :
+       {"camera.key=[{ frame = 0, position = [0, 0, 3] }, { frame = 4, position = [0, 2, -3] }]",
+        "camera.key=[{ frame = 9, look_at = [0, 1, 3] }]", "camera.key.0.position=[0, 1, 0]",
+        "camera.look_at=[0, 1, 3]", "camera.up=[0, 0, 1]", "camera.key=[{ frame = 3 }]",
+        "camera.key.0.up=[0, 0, 2]"}) {
+    const std::string line = told(set);
+    EXPECT_TRUE(line.starts_with("--set " + set + ": ")) << line;
+  }
 }
 
 }  // namespace set_test

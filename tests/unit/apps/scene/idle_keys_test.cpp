@@ -1,0 +1,49 @@
+#include "apps/scene/idle_keys.h"
+
+#include <gtest/gtest.h>
+
+#include "apps/scene/scene.h"
+
+namespace lagomorph::apps {
+namespace idle_keys_test {
+
+using Lines = std::vector<std::string>;
+
+Lines idle(const std::string& text) {
+  return idle_keys(parse_scene(text + "\n[[body]]\nmesh = \"a.msh\"", "a.toml", {}));
+}
+
+TEST(IdleKeys, DefaultsAreNotTold) {
+  EXPECT_EQ(idle(""), Lines{});
+  EXPECT_EQ(idle("[render]\nsamples = 64\nbackend = \"raster\"\npath = { bounces = 4 }"), Lines{});
+}
+
+TEST(IdleKeys, OfTheOtherBackEnd) {
+  const std::string keys =
+      "[render]\nsamples = 8\npath = { bounces = 2, seed = 1 }\nraster = { multisample = 1 }\n";
+  EXPECT_EQ(idle(keys), Lines{"render.samples, render.path.bounces, render.path.seed have no effect: "
+                              "render.backend = \"raster\""});
+  EXPECT_EQ(idle(keys + "backend = \"path\""),
+            Lines{"render.raster.multisample has no effect: render.backend = \"path\""});
+  EXPECT_EQ(idle("[render]\nbackend = \"path\"\npath = { min_samples = 4 }"),
+            Lines{"render.path.min_samples has no effect: render.path.noise_threshold is 0"});
+}
+
+TEST(IdleKeys, OfTheCamera) {
+  EXPECT_EQ(idle("[camera]\ninterpolation = \"linear\"\nmargin = 0.1"),
+            (Lines{"camera.interpolation has no effect: there is no [[camera.key]]",
+                   "camera.margin has no effect: camera.frame is neither \"rest\" nor \"motion\""}));
+  EXPECT_EQ(idle("[camera]\ninterpolation = \"linear\"\nkey = [{ frame = 0, fov = 20 }]"), Lines{});
+  EXPECT_EQ(idle("[camera]\nmargin = 0.1\nframe = \"motion\""), Lines{});
+  EXPECT_EQ(idle("[camera]\nmargin = 0.1\n[[panel]]\n[[panel]]\nframe = \"rest\""), Lines{}) << "of a panel";
+  EXPECT_EQ(idle("[camera]\nblades = 6\nfocus_distance = 2\n[render]\nbackend = \"path\""),
+            Lines{"camera.focus_distance, camera.blades have no effect: camera.f_stop is 0"});
+}
+
+TEST(IdleKeys, OfPanels) {
+  EXPECT_EQ(idle("[layout]\ncolumns = 2"), Lines{"layout.columns has no effect: there is no [[panel]]"});
+  EXPECT_EQ(idle("[layout]\ncolumns = 2\n[[panel]]"), Lines{});
+}
+
+}  // namespace idle_keys_test
+}  // namespace lagomorph::apps
