@@ -1,11 +1,13 @@
 #include "render/raster/light_maps.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "render/ground_texture.h"
 #include "render/raster/light_view.h"
 #include "render/raster/shaders/shaders.h"
+#include "render/raster/sky_light.h"
 #include "render/raster/sky_model.h"
 #include "render/raster/stand_ins.h"
 
@@ -16,6 +18,7 @@ constexpr int sky_map_size = 256;
 constexpr int ground_map_size = 128;
 constexpr int sky_table_size = 64;
 constexpr int coat_table_size = 32;
+constexpr int widest_sky_picture = 8192;  // 512 MB with its levels
 
 void sampling(GLenum target, GLenum minify, GLenum magnify) {
   glTexParameteri(target, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(minify));
@@ -46,6 +49,34 @@ void allocate_table(const Texture& texture, int width, int height, const std::ve
   sampling(GL_TEXTURE_2D, GL_LINEAR, GL_LINEAR);
 }
 
+/// A level each.
+void allocate_cubes(const Texture& texture, std::span<const CubeMap<Vec4>> levels) {
+  glBindTexture(GL_TEXTURE_CUBE_MAP, texture.id());
+  glTexStorage2D(GL_TEXTURE_CUBE_MAP, static_cast<GLsizei>(levels.size()), GL_RGBA32F, levels[0].size(),
+                 levels[0].size());
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    const int size = levels[level].size();
+    for (int face = 0; face < 6; ++face) {
+      glTexSubImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face), static_cast<GLint>(level),
+                      0, 0, size, size, GL_RGBA, GL_FLOAT, levels[level].at(face, 0, 0).data());
+    }
+  }
+  sampling(GL_TEXTURE_CUBE_MAP, levels.size() > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR, GL_LINEAR);
+}
+
+/// Half floats, which end at 65504.
+void allocate_picture(const Texture& texture, const SkyMap& map) {
+  std::vector<Color> texels = map.texels();
+  for (Color& texel : texels) texel = texel.min(65504.0F);
+  const int levels = std::bit_width(static_cast<unsigned>(std::max(map.width(), map.height())));
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glTexStorage2D(GL_TEXTURE_2D, levels, GL_RGB16F, map.width(), map.height());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, map.width(), map.height(), GL_RGB, GL_FLOAT, texels.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  sampling(GL_TEXTURE_2D, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+}
+
 /// The sphere around all positions, on a grid of a sixteenth of its size or so, see fit_light_view().
 struct Sphere {
   Vec3 center = Vec3::Zero();
@@ -68,10 +99,7 @@ Sphere bounding_sphere(std::span<const std::vector<Vec3>> positions, const Eigen
 
 LightMaps::LightMaps(const RasterSettings& settings)
     : settings_(settings),
-      depth_program_("depth map", {shaders::depth_map_vertex}, {shaders::depth_map_fragment}),
-      ground_program_("ground map", {shaders::full_screen_vertex},
-                      {shaders::frame, shaders::brdf, shaders::shadow, shaders::sky, shaders::ground_color,
-                       shaders::ground_map_fragment}) {
+      depth_program_("depth map", {shaders::depth_map_vertex}, {shaders::depth_map_fragment}) {
   allocate_table(sky_table_, sky_table_size, 1, sky_irradiance_table(sky_table_size));
   allocate_table(coat_table_, coat_table_size, coat_table_size, coat_albedo_table(coat_table_size));
   allocate_depth(sky_maps_, sky_map_size, most_sky_directions);
@@ -91,7 +119,31 @@ LightMaps::LightMaps(const RasterSettings& settings)
   check_framebuffer("ground map");
 }
 
-void LightMaps::set_scene(const RenderScene& scene, FrameBlock& block) {
+/// The light of the scene's map, and the map itself where the camera may see it.
+void LightMaps::set_sky_map(const RenderScene& scene, FrameBlock& block) {
+  const SkyMap& map = *scene.sky.map;
+  const SkyLight light = sky_light(scene.sky);
+  block.sky = light.directions;
+  sky_textures_.emplace();
+  allocate_cubes(sky_textures_->irradiance_above, {&light.irradiance_above, 1});
+  allocate_cubes(sky_textures_->radiance_below, {&light.radiance_below, 1});
+  allocate_cubes(sky_textures_->lobes_above, light.lobes_above);
+  allocate_cubes(sky_textures_->lobes_below, light.lobes_below);
+  glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+  block.sky_picture = Vec4(map.turn(), 0.0F, scene.sky.strength, 0.0F);
+  if (!scene.background) allocate_picture(sky_textures_->picture, reduced(map, widest_sky_picture));
+  check_gl("the sky's map");
+}
+
+void LightMaps::set_scene(const RenderScene& scene, const LightFeatures& features, FrameBlock& block) {
+  if (!ground_program_ || !(features == features_)) {
+    features_ = features;
+    using Parts = Program::Parts;
+    ground_program_.reset();
+    ground_program_.emplace("ground map", Parts{shaders::full_screen_vertex},
+                            Parts{features.definitions(), shaders::frame, shaders::brdf, shaders::shadow,
+                                  shaders::sky, shaders::ground_color, shaders::ground_map_fragment});
+  }
   const int layers = std::max<int>(1, static_cast<int>(scene.lights.size()));
   if (layers != shadow_layers_) {
     shadow_maps_ = Texture();
@@ -108,9 +160,16 @@ void LightMaps::set_scene(const RenderScene& scene, FrameBlock& block) {
     b.up = vec4(frame.up, 0.5F * light.size.y());
     const std::size_t first_sun = scene.lights.size() - scene.suns.size();
     b.normal = vec4(frame.normal, i < first_sun ? 0.0F : solid_angle(scene.suns[i - first_sun]));
-    b.radiance = vec4(Color(light.color * light.radiance), 0.0F);
+    const bool disc = features.sun_discs && i >= first_sun && scene.suns[i - first_sun].visible;
+    b.radiance = vec4(Color(light.color * light.radiance), disc ? 1.0F : 0.0F);
   }
-  block.sky = sky_directions(scene.sky);
+  if (scene.sky.map) {
+    set_sky_map(scene, block);
+  } else {
+    sky_textures_.reset();
+    block.sky = sky_directions(scene.sky);
+    block.sky_picture = Vec4::Zero();
+  }
   block.zenith = vec4(Color(scene.sky.strength * scene.sky.zenith), 0.0F);
   block.horizon = vec4(Color(scene.sky.strength * scene.sky.horizon), 0.0F);
   block.background = scene.background ? vec4(*scene.background, 1.0F) : Vec4::Zero();
@@ -184,7 +243,7 @@ void LightMaps::draw(std::span<const MeshBuffers> meshes) {
   bind(ground_target_, ground_map_size, ground_map_size);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
-  ground_program_.use();
+  ground_program_->use();
   glBindVertexArray(no_attributes_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glActiveTexture(GL_TEXTURE4);
@@ -202,6 +261,15 @@ void LightMaps::bind_textures() const {
     glActiveTexture(GL_TEXTURE2 + unit);
     glBindTexture(GL_TEXTURE_2D, maps[unit]->id());
   }
+  if (!sky_textures_) return;
+  const Texture* const cubes[] = {&sky_textures_->irradiance_above, &sky_textures_->radiance_below,
+                                  &sky_textures_->lobes_above, &sky_textures_->lobes_below};
+  for (GLenum unit = 0; unit < 4; ++unit) {
+    glActiveTexture(GL_TEXTURE7 + unit);
+    glBindTexture(GL_TEXTURE_CUBE_MAP, cubes[unit]->id());
+  }
+  glActiveTexture(GL_TEXTURE11);
+  glBindTexture(GL_TEXTURE_2D, sky_textures_->picture.id());
 }
 
 }  // namespace lagomorph::render::raster

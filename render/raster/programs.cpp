@@ -15,29 +15,34 @@ std::string definitions(int multisample, bool colors) {
 
 const char* color_definition(bool colors) { return colors ? "#define COLORS\n" : ""; }
 
-SeenPrograms::SeenPrograms(int multisample, bool colors)
+const char* LightFeatures::definitions() const {
+  if (sky_map) return sun_discs ? "#define SKY_MAP\n#define SUN_DISCS\n" : "#define SKY_MAP\n";
+  return sun_discs ? "#define SUN_DISCS\n" : "";
+}
+
+SeenPrograms::SeenPrograms(int multisample, bool colors, const LightFeatures& light_features)
     : mesh("seen mesh", {color_definition(colors), shaders::frame, shaders::mesh_vertex},
            {color_definition(colors), shaders::frame, shaders::seen_fragment}),
       light("seen light", {shaders::frame, shaders::emitter_vertex},
             {"#define EMITTER\n", color_definition(colors), shaders::frame, shaders::seen_fragment}),
       layer("layer", {shaders::frame, shaders::layer_vertex},
-            {"#define SHADOWS\n", definitions(multisample, colors).c_str(), shaders::frame, shaders::brdf,
-             shaders::shadow, shaders::sky, shaders::shade, shaders::ground_point, shaders::layers,
-             shaders::layer_fragment}) {}
+            {"#define SHADOWS\n", light_features.definitions(), definitions(multisample, colors).c_str(),
+             shaders::frame, shaders::brdf, shaders::shadow, shaders::sky, shaders::shade,
+             shaders::ground_point, shaders::layers, shaders::layer_fragment}) {}
 
-Programs::Programs(int multisample)
-    : seen(multisample, false),
+Programs::Programs(int multisample, const LightFeatures& light_features)
+    : seen(multisample, false, light_features),
       ground_cover("ground cover", {shaders::frame, shaders::ground_vertex},
                    {shaders::frame, shaders::ground_point, shaders::ground_cover_fragment}),
       background("background", {shaders::full_screen_vertex},
-                 {shaders::frame, shaders::sky, shaders::background_fragment}),
+                 {light_features.definitions(), shaders::frame, shaders::sky, shaders::background_fragment}),
       ground("ground", {shaders::frame, shaders::ground_vertex},
-             {shaders::frame, shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point,
-              shaders::ground_color, shaders::ground_fragment}),
-      shadowed_ground(
-          "shadowed ground", {shaders::frame, shaders::ground_vertex},
-          {"#define SHADOWS\n", shaders::frame, shaders::brdf, shaders::shadow, shaders::sky, shaders::shade,
-           shaders::ground_point, shaders::ground_color, shaders::ground_fragment}),
+             {light_features.definitions(), shaders::frame, shaders::brdf, shaders::sky, shaders::shade,
+              shaders::ground_point, shaders::ground_color, shaders::ground_fragment}),
+      shadowed_ground("shadowed ground", {shaders::frame, shaders::ground_vertex},
+                      {"#define SHADOWS\n", light_features.definitions(), shaders::frame, shaders::brdf,
+                       shaders::shadow, shaders::sky, shaders::shade, shaders::ground_point,
+                       shaders::ground_color, shaders::ground_fragment}),
       count("count of layers", {shaders::full_screen_vertex},
             {definitions(multisample, false).c_str(), shaders::frame, shaders::layers,
              shaders::count_fragment}),

@@ -4,10 +4,20 @@
 
 namespace lagomorph::render::raster {
 
+/// What of a scene's light the shaders are made for.
+struct LightFeatures {
+  bool sky_map = false;    // the sky is a map
+  bool sun_discs = false;  // suns are seen in the sky
+  bool operator==(const LightFeatures&) const = default;
+
+  /// For all shaders that know of the sky.
+  const char* definitions() const;
+};
+
 /// What draws the samples that say what is seen, and what lights them; `colors`: where meshes have colours of
 /// their vertices.
 struct SeenPrograms {
-  SeenPrograms(int multisample, bool colors);
+  SeenPrograms(int multisample, bool colors, const LightFeatures&);
 
   Program mesh, light, layer;
 };
@@ -17,7 +27,7 @@ const char* color_definition(bool colors);
 
 /// All but those of LightMaps, and those that few scenes need.
 struct Programs {
-  explicit Programs(int multisample);
+  Programs(int multisample, const LightFeatures&);
 
   SeenPrograms seen;
   Program ground_cover, background, ground, shadowed_ground, count, mesh_depth, ground_depth;

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -70,8 +72,9 @@ public:
 private:
   /// All that lives in the context.
   struct GlSide {
-    explicit GlSide(const RasterSettings& settings) : programs(settings.multisample), maps(settings) {}
-    Programs programs;
+    explicit GlSide(const RasterSettings& settings) : maps(settings) {}
+    LightFeatures features;
+    std::optional<Programs> programs;  // for these, from the first scene on
     LightMaps maps;
     Buffer frame, surfaces;
     VertexArray no_attributes;
@@ -83,10 +86,11 @@ private:
     std::optional<SeenPrograms> colored;  // likewise; used where a mesh has colours of its vertices
     bool has_colors = false;
 
-    const SeenPrograms& seen() const { return has_colors ? *colored : programs.seen; }
+    const SeenPrograms& seen() const { return has_colors ? *colored : programs->seen; }
   };
 
   void check_mesh_number(int mesh) const;
+  void make_programs();
   void upload_surfaces(const RenderScene&);
   Mat4 upload_frame(const Camera&, const Camera& before);
   void draw_full_screen() const;
@@ -143,11 +147,25 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
   }
   gl_->has_colors = std::any_of(gl_->meshes.begin(), gl_->meshes.end(),
                                 [](const MeshBuffers& mesh) { return mesh.colored(); });
-  if (gl_->has_colors && !gl_->colored) gl_->colored.emplace(raster_.multisample, true);
+  make_programs();
   upload_surfaces(scene);
-  gl_->maps.set_scene(scene_, block_);
+  gl_->maps.set_scene(scene_, gl_->features, block_);
   lights_are_stale_ = true;
   check_gl("taking the scene");
+}
+
+/// Those that the scene needs.
+void RasterRenderer::make_programs() {
+  const bool sees_suns = !scene_.background && std::any_of(scene_.suns.begin(), scene_.suns.end(),
+                                                           [](const Sun& sun) { return sun.visible; });
+  const LightFeatures features{scene_.sky.map != nullptr, sees_suns};
+  if (!gl_->programs || !(features == gl_->features)) {
+    gl_->features = features;
+    gl_->programs.reset();
+    gl_->programs.emplace(raster_.multisample, features);
+    gl_->colored.reset();
+  }
+  if (gl_->has_colors && !gl_->colored) gl_->colored.emplace(raster_.multisample, true, features);
 }
 
 /// The ground, the meshes, the lights.
@@ -209,6 +227,11 @@ Mat4 RasterRenderer::upload_frame(const Camera& camera, const Camera& before) {
   block_.right = vec4(Vec3(camera.right() / projection(0, 0)), 0.0F);
   block_.up = vec4(Vec3(camera.up() / projection(1, 1)), 0.0F);
   block_.viewport = Vec4(width, height, 1.0F / width, 1.0F / height);
+  if (scene_.sky.map && !camera.is_orthographic()) {
+    const float texels = 2.0F * block_.up.norm() / height * static_cast<float>(scene_.sky.map->height()) /
+                         std::numbers::pi_v<float>;  // in a pixel
+    block_.sky_picture.y() = std::max(std::log2(texels), 0.0F);
+  }
   glBindBuffer(GL_UNIFORM_BUFFER, gl_->frame.id());
   glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameBlock), &block_, GL_DYNAMIC_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, gl_->frame.id());
@@ -302,7 +325,7 @@ bool RasterRenderer::ground_hides(const Camera& camera) const {
 
 /// What is seen of meshes and visible lights, unlit, in every sample.
 void RasterRenderer::draw_seen(bool behind_ground) const {
-  const Programs& programs = gl_->programs;
+  const Programs& programs = *gl_->programs;
   gl_->targets->bind_seen();
   glEnable(GL_DEPTH_TEST);
   gl_->targets->clear_seen();
@@ -327,7 +350,7 @@ void RasterRenderer::draw_seen(bool behind_ground) const {
 
 /// The background and the ground over it.
 void RasterRenderer::draw_background() const {
-  const Programs& programs = gl_->programs;
+  const Programs& programs = *gl_->programs;
   gl_->targets->bind_color();
   glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_TEST);
@@ -345,7 +368,7 @@ void RasterRenderer::draw_background() const {
 
 /// What is seen over the background, lit once a pixel and surface: layers add up, the first covers for all.
 void RasterRenderer::draw_layers() const {
-  const Programs& programs = gl_->programs;
+  const Programs& programs = *gl_->programs;
   gl_->targets->bind_color();
   gl_->targets->bind_seen_textures();
   glDisable(GL_CULL_FACE);
@@ -371,7 +394,7 @@ void RasterRenderer::draw_layers() const {
 
 /// One sample a pixel, so that a depth is that of the surface at the pixel's centre.
 void RasterRenderer::draw_depth() const {
-  const Programs& programs = gl_->programs;
+  const Programs& programs = *gl_->programs;
   gl_->targets->bind_depth();
   glEnable(GL_DEPTH_TEST);
   const std::array<float, 4> nothing = {std::numeric_limits<float>::infinity(), 0.0F, 0.0F, 0.0F};
@@ -397,8 +420,8 @@ void RasterRenderer::draw_body_ids(Image& image) {
   glClear(GL_DEPTH_BUFFER_BIT);
   if (scene_.ground.enabled) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    draw_ground_cells(gl_->programs.ground_depth, true);
-    draw_ground_cells(gl_->programs.ground_depth, false);
+    draw_ground_cells(gl_->programs->ground_depth, true);
+    draw_ground_cells(gl_->programs->ground_depth, false);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
   draw_meshes(*gl_->mesh_number);

@@ -238,7 +238,8 @@ void main() {
 #ifdef COLORS
   if (tint.w > 0.0) surface.color.rgb = tint.rgb / tint.w;
 #endif
-  vec3 lit = shade(p, v, surface, sky_seen(p.x, p.normal), radiance_from_below(p.x));
+  SkySeen sky = sky_seen(p.x, p.normal, reflect(-v, p.normal), surface.finish.x);
+  vec3 lit = shade(p, v, surface, sky, radiance_from_below(p.x));
   if (surface.color.w > 0.5) lit = surface.color.rgb;
   color.rgb = before_ground * lit;
   if (before_ground < count)
@@ -314,7 +315,12 @@ void main() {
   // As wide as the path tracer's filter: a box of the same variance.
   vec2 over_x = dFdx(p.x.xz), over_y = dFdy(p.x.xz);
   surface.color.rgb = ground_color_at(p.x, 1.35 * sqrt(over_x * over_x + over_y * over_y));
-  color = vec4(shade(p, v, surface, seen, horizon.rgb), met ? 1.0 - ground_fade(p.x) : 0.0);
+#ifdef SKY_MAP
+  vec4 below = vec4(p.normal.y > 0.0 ? open_sky(p.normal) / PI : open_below(p.normal), 1.0);
+#else
+  vec4 below = vec4(horizon.rgb, 1.0);
+#endif
+  color = vec4(shade(p, v, surface, SkySeen(seen, seen), below), met ? 1.0 - ground_fade(p.x) : 0.0);
 }
 )";
 
