@@ -39,7 +39,7 @@ struct SkyDirectionBlock {
 /// A row of the shaders' table of surfaces (std430).
 struct SurfaceBlock {
   Vec4 color;   // base colour, or radiance of a light; w 1 for a light
-  Vec4 finish;  // roughness, metallic, the dielectric's f0
+  Vec4 finish;  // roughness, metallic, the dielectric's f0, opacity
 };
 
 struct FrameBlock {

@@ -140,9 +140,15 @@ void LightMaps::set_scene(const RenderScene& scene, const LightFeatures& feature
     features_ = features;
     using Parts = Program::Parts;
     ground_program_.reset();
-    ground_program_.emplace("ground map", Parts{shaders::full_screen_vertex},
-                            Parts{features.definitions(), shaders::frame, shaders::brdf, shaders::shadow,
-                                  shaders::sky, shaders::ground_color, shaders::ground_map_fragment});
+    ground_program_.emplace(
+        "ground map", Parts{shaders::full_screen_vertex},
+        Parts{features.definitions().c_str(), shaders::frame, shaders::brdf, shaders::shadow, shaders::sky,
+              shaders::ground_color, shaders::ground_map_fragment});
+  }
+  if (features.see_through && !see_through_depth_program_) {
+    using Parts = Program::Parts;
+    see_through_depth_program_.emplace("depth map of dots", Parts{shaders::depth_map_vertex},
+                                       Parts{shaders::see_through_depth_map_fragment});
   }
   const int layers = std::max<int>(1, static_cast<int>(scene.lights.size()));
   if (layers != shadow_layers_) {
@@ -211,7 +217,9 @@ void LightMaps::fit(const RenderScene& scene, std::span<const std::vector<Vec3>>
   }
   block.counts.z() = box.isEmpty() ? 0.0F : static_cast<float>(most_sky_directions);
   block.sky_map = vec4(sphere.center, 1.0F / sphere.radius);
-  const float half = 1.5F * sphere.radius + std::max(sphere.center.y() - scene.ground.height, 0.0F);
+  const float shadows =
+      scene.sky.map ? 2.0F : 1.0F;  // of the meshes' height: those of a bright patch are long
+  const float half = 1.5F * sphere.radius + shadows * std::max(sphere.center.y() - scene.ground.height, 0.0F);
   const float scale = 0.5F / half;
   block.ground_map = Vec4(scale, 2.0F * half / static_cast<float>(ground_map_size),
                           0.5F - scale * sphere.center.x(), 0.5F - scale * sphere.center.z());
@@ -222,11 +230,24 @@ void LightMaps::draw_depth(const Texture& maps, int layer, int size, const Mat4&
   bind(depth_target_, size, size);
   glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, maps.id(), 0, layer);
   glClear(GL_DEPTH_BUFFER_BIT);
+  depth_program_.use();
   glUniformMatrix4fv(depth_program_.location("clip_from_world"), 1, GL_FALSE, clip_from_world.data());
   for (const MeshBuffers& mesh : meshes) {
+    if (mesh.see_through()) continue;
     // The first surface on the light's way is a front face; where one is inverted, the next one still stops
     // the light.
     mesh.closed() ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
+    mesh.draw();
+  }
+  if (!features_.see_through) return;
+  see_through_depth_program_->use();
+  const auto location = [&](const char* name) { return see_through_depth_program_->location(name); };
+  glUniformMatrix4fv(location("clip_from_world"), 1, GL_FALSE, clip_from_world.data());
+  glDisable(GL_CULL_FACE);
+  for (const MeshBuffers& mesh : meshes) {
+    if (!mesh.see_through()) continue;
+    glUniform1f(location("opacity"), mesh.material().opacity);
+    glUniform1i(location("body"), mesh.body_id());
     mesh.draw();
   }
 }
@@ -234,7 +255,6 @@ void LightMaps::draw_depth(const Texture& maps, int layer, int size, const Mat4&
 void LightMaps::draw(std::span<const MeshBuffers> meshes) {
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
-  depth_program_.use();
   for (std::size_t i = 0; i < light_views_.size(); ++i)
     draw_depth(shadow_maps_, static_cast<int>(i), settings_.shadow_map, light_views_[i], meshes);
   for (std::size_t i = 0; i < sky_views_.size(); ++i)

@@ -37,7 +37,8 @@ private:
 
   RasterSettings settings_;
   Program depth_program_;
-  std::optional<Program> ground_program_;  // for features_
+  std::optional<Program> see_through_depth_program_;  // compiled when it is needed
+  std::optional<Program> ground_program_;             // for features_
   LightFeatures features_;
   Texture shadow_maps_, sky_maps_, sky_table_, coat_table_, ground_ambient_, ground_bounce_;
   /// A map of the sky, see sky_light.h.

@@ -1,17 +1,20 @@
 #pragma once
 
+#include <string>
+
 #include "render/raster/gl_objects.h"
 
 namespace lagomorph::render::raster {
 
 /// What of a scene's light the shaders are made for.
 struct LightFeatures {
-  bool sky_map = false;    // the sky is a map
-  bool sun_discs = false;  // suns are seen in the sky
+  bool sky_map = false;      // the sky is a map
+  bool sun_discs = false;    // suns are seen in the sky
+  bool see_through = false;  // some bodies are not opaque
   bool operator==(const LightFeatures&) const = default;
 
   /// For all shaders that know of the sky.
-  const char* definitions() const;
+  std::string definitions() const;
 };
 
 /// What draws the samples that say what is seen, and what lights them; `colors`: where meshes have colours of
@@ -20,6 +23,14 @@ struct SeenPrograms {
   SeenPrograms(int multisample, bool colors, const LightFeatures&);
 
   Program mesh, light, layer;
+};
+
+/// What draws the surfaces that are not opaque, the next one of each sample at a time, lights them, and lays
+/// them over the picture.
+struct PeelPrograms {
+  PeelPrograms(int multisample, bool colors, const LightFeatures&);
+
+  Program mesh, count, layer, composite;
 };
 
 /// For shaders of meshes whose vertices have colours.

@@ -14,7 +14,7 @@ struct SkyDirection {
 };
 struct Surface {
   vec4 color;   // base colour, or radiance of a light; w 1 for a light
-  vec4 finish;  // roughness, metallic, the dielectric's f0
+  vec4 finish;  // roughness, metallic, the dielectric's f0, opacity
 };
 layout(std140, binding = 0) uniform Frame {
   mat4 clip_from_world;
