@@ -369,7 +369,7 @@ void main() {
   p.depth = 0.0;  // all pixels here see the same plane
   vec2 at = ground_map_at(p.x);
   vec3 seen = vec3(1.0);
-  if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)))) seen = texture(ground_ambient, at).rgb;
+  if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)))) seen = ground_seen(at);
   Surface surface = surfaces[0];
   // As wide as the path tracer's filter: a box of the same variance.
   vec2 over_x = dFdx(p.x.xz), over_y = dFdy(p.x.xz);

@@ -150,7 +150,8 @@ vec3 sky_seen_softly(vec3 x, vec3 n) {
 #ifdef SKY_MAP
     float spread = sky_directions[i].direction.w;
 #endif
-    float angle = 2.3999632 * (float(i) + 0.25 * quad_index());
+    float turns = 0.25 * quad_index();
+    float angle = 2.3999632 * (float(i) + turns);
     vec2 turn = vec2(cos(angle), sin(angle));
     vec2 found = hidden_through(i, from, from.at.xy);
     float reach = 0.5 * spread * max(1.0 - from.at.z, 0.0);
@@ -162,7 +163,7 @@ vec3 sky_seen_softly(vec3 x, vec3 n) {
     reach = spread * found.y / max(found.x, 1e-6);
     float hidden = 0.0;
     for (int k = 0; k < taps; ++k) {
-      hidden += hidden_through(i, from, from.at.xy + reach * sqrt((float(k) + 0.5) / float(taps)) * turn).x;
+      hidden += hidden_through(i, from, from.at.xy + reach * sqrt((float(k) + 0.125 + turns) / float(taps)) * turn).x;
       turn = vec2(-0.7373688 * turn.x - 0.6754902 * turn.y, 0.6754902 * turn.x - 0.7373688 * turn.y);
     }
     vec3 light = max(from.normal.z, 0.0) * sky_directions[i].radiance.rgb;
@@ -174,6 +175,16 @@ vec3 sky_seen_softly(vec3 x, vec3 n) {
 #endif
 
 vec2 ground_map_at(vec3 x) { return x.xz * ground_map.x + ground_map.zw; }
+
+// Part of the sky that a place of the ground's map sees. The mean over half a texel to all sides counts the four pixels of
+// a quad alike, wherever it is, so that nothing is left of their different points.
+vec3 ground_seen(vec2 at) {
+  float half_texel = 0.5 / counts.w;
+  vec3 sum = vec3(0.0);
+  for (int k = 0; k < 4; ++k)
+    sum += texture(ground_ambient, at + half_texel * (2.0 * vec2(k & 1, k >> 1) - 1.0)).rgb;
+  return 0.25 * sum;
+}
 
 // Mean radiance from below the horizon: the ground's, averaged over about the point's height above it, or beyond
 // it the horizon's. Of a map the ground's alone; w: part that it has, the map has the rest.
