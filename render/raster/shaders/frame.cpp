@@ -43,6 +43,13 @@ void pixel_ray(out vec3 origin, out vec3 direction) {
 // Unit vector from a point to the camera.
 vec3 towards_eye(vec3 x) { return eye.w > 0.5 ? -forward.xyz : normalize(eye.xyz - x); }
 
+// The mirrored view, of a normal that is bent as little as needed for v to be above the surface.
+vec3 mirrored_view(vec3 v, vec3 n) {
+  const float least = 1e-3;
+  float cosine = dot(n, v);
+  return reflect(-v, cosine < least ? normalize(n + (least - cosine) * v) : n);
+}
+
 // Number of this pixel in its 2x2 quad, 0..3.
 float quad_index() {
   vec2 odd = mod(floor(gl_FragCoord.xy), 2.0);

@@ -87,8 +87,8 @@ void main() {
 // vertices' colour where they have one, w 1. Triangles are small and their pixels many, so that nothing is
 // lit here.
 //
-// With PEEL: of the surfaces that are not opaque, the next one behind that of the pass before, in each sample for itself
-// [Everitt 2001]. The upper half of the last value is then what those before it let through.
+// With PEEL: of the surfaces that are not opaque, the next one behind that of the pass before, in each sample
+// for itself [Everitt 2001]. The upper half of the last value is then what those before it let through.
 const char* const seen_fragment = R"(
 #ifdef PEEL
 #if SAMPLES > 1
@@ -290,7 +290,7 @@ void main() {
 #ifdef COLORS
   if (tint.w > 0.0) surface.color.rgb = tint.rgb / tint.w;
 #endif
-  SkySeen sky = sky_seen(p.x, p.normal, reflect(-v, p.normal), surface.finish.x);
+  SkySeen sky = sky_seen(p.x, p.normal, mirrored_view(v, p.normal), surface.finish.x);
   vec3 lit = shade(p, v, surface, sky, radiance_from_below(p.x));
 #ifdef PEEL
   color = vec4(weight_before * lit, weight_before);
@@ -418,9 +418,10 @@ const char* const depth_map_fragment = R"(
 void main() {}
 )";
 
-// Dots as dense as the surface is opaque [Fuchs et al. 1985; Enderton et al. 2010], which the filters of the shadows even
-// out: a plane of points over the texels, another one for each sheet of each body, so that one behind the other they
-// hide as if independent. The rows are of the generalized golden ratio [Roberts 2018] and its like.
+// Dots as dense as the surface is opaque [Fuchs et al. 1985; Enderton et al. 2010], which the filters of the
+// shadows even out: a plane of points over the texels, another one for each sheet of each body, so that one
+// behind the other they hide as if independent. The rows are of the generalized golden ratio [Roberts 2018]
+// and its like.
 const char* const see_through_depth_map_fragment = R"(
 uniform float opacity;
 uniform int body;

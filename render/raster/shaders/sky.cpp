@@ -2,9 +2,9 @@
 
 namespace lagomorph::render::raster::shaders {
 
-// The sky's light is a table by the normal's height (sky_model.h), or of a map of the sky (SKY_MAP, sky_light.h) cubes by
-// direction, times the part of it that the meshes leave, seen through depth maps from directions over the sky. From below
-// comes what the ground reflects, or the horizon, or the map.
+// The sky's light is a table by the normal's height (sky_model.h), or of a map of the sky (SKY_MAP,
+// sky_light.h) cubes by direction, times the part of it that the meshes leave, seen through depth maps from
+// directions over the sky. From below comes what the ground reflects, or the horizon, or the map.
 const char* const sky = R"(
 layout(binding = 1) uniform sampler2DArray sky_maps;
 layout(binding = 2) uniform sampler2D sky_table;
@@ -112,7 +112,8 @@ SkySeen sky_seen(vec3 x, vec3 n, vec3 r, float roughness) {
     vec3 light = max(from.normal.z, 0.0) * sky_directions[i].radiance.rgb;
     total.diffuse += light;
     seen.diffuse += light * open;
-    light = exp(sharpness * (dot(r, sky_directions[i].direction.xyz) - 1.0)) * sky_directions[i].radiance.rgb;
+    light = exp(sharpness * (dot(r, sky_directions[i].direction.xyz) - 1.0)) * smoothstep(0.0, 0.2, from.normal.z) *
+            sky_directions[i].radiance.rgb;
     total.mirrored += light;
     seen.mirrored += light * open;
   }
@@ -261,14 +262,16 @@ vec3 shade(Point p, vec3 v, Surface surface, SkySeen sky, vec4 below) {
   vec3 ambient = (open * seen + from_below) / max(1.0 - hidden * coat.diffuse, 0.05);
   radiance += coat.diffuse / PI * ambient * out_of_base;
 
-  vec3 r = reflect(-v, n);
   float roughness = coat.roughness;
 #ifdef SKY_MAP
+  vec3 r = mirrored_view(v, n);
   float level = float(textureQueryLevels(sky_lobes_above) - 1) * roughness;
   vec4 above = textureLod(sky_lobes_above, r, level);
   vec3 beneath = mix(textureLod(sky_lobes_below, r, level).rgb, (1.0 - above.w) * below.rgb, below.w);
-  radiance += (coat.f0 * split.x + coat.f90 * split.y) * (above.rgb * sky.mirrored + beneath);
+  vec3 itself = above.w * (1.0 - sky.mirrored) * (coat.diffuse + coat.f0) * ambient / PI;  // what hides the sky, as above
+  radiance += (coat.f0 * split.x + coat.f90 * split.y) * (above.rgb * sky.mirrored + itself + beneath);
 #else
+  vec3 r = reflect(-v, n);
   vec3 mirrored = mix(below.rgb, sky_radiance(r), smoothstep(-roughness, roughness + 1e-3, r.y));
   vec3 rough = (open_sky(r) + 0.5 * PI * (1.0 - r.y) * below.rgb) / PI;
   radiance += (coat.f0 * split.x + coat.f90 * split.y) * mix(mirrored, rough, roughness) * sky.mirrored;

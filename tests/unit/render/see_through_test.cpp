@@ -189,9 +189,9 @@ TEST(SeeThrough, BackEndsAgree) {
                                             path.find(alpha_channel)->values[i / 3])) /
                3.0;
     }
-    EXPECT_LT(apart / light, 0.08) << colored;
-    EXPECT_LT(std::abs(bias) / light, 0.04) << colored;
-    EXPECT_LT(alpha / (width * height), 0.005) << colored;
+    EXPECT_LT(apart / light, 0.03) << colored;
+    EXPECT_LT(std::abs(bias) / light, 0.01) << colored;
+    EXPECT_LT(alpha / (width * height), 0.002) << colored;
   }
 }
 
