@@ -42,6 +42,7 @@ void check_material(const std::string& what, const Material& m) {
   check_range(what + " sheen", m.sheen, 0.0F, 1.0F, "in [0, 1]");
   check_color(what + " sheen_tint", m.sheen_tint, 1.0F, "in [0, 1]");
   check_range(what + " sheen_roughness", m.sheen_roughness, 0.0F, 1.0F, "in [0, 1]");
+  check_range(what + " opacity", m.opacity, 0.0F, 1.0F, "in [0, 1]");
 }
 
 void check_mesh(const Mesh& mesh, std::size_t index) {

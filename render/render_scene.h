@@ -14,7 +14,8 @@
 namespace lagomorph::render {
 
 /// A dielectric over a diffuse base, or a metal: GGX microfacets with Smith masking, Schlick's Fresnel. What
-/// begins at 0 below only the path tracer draws; see raster/optics_stand_in.h.
+/// begins at 0 below only the path tracer draws; see raster/optics_stand_in.h. Of a surface that is not
+/// opaque the rest is not there: light goes straight on.
 struct Material {
   Color base_color =
       Color(0.8F, 0.8F, 0.8F);  // diffuse albedo, or a metal's reflectance at normal incidence, in [0, 1]
@@ -33,6 +34,7 @@ struct Material {
   float sheen = 0.0F;                                    // fuzz over all, in [0, 1]
   Color sheen_tint = Color::Ones();                      // its colour, in [0, 1]
   float sheen_roughness = 0.5F;                          // in [0, 1]
+  float opacity = 1.0F;                                  // part of the surface that is there, in [0, 1]
 };
 
 /// A triangle mesh whose vertices move. Normals follow: vertex_normals() of the current positions when

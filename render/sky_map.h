@@ -18,6 +18,9 @@ public:
 
   int width() const { return width_; }
   int height() const { return height_; }
+  /// Azimuth that the middle faces, in turns from -z.
+  float turn() const { return turn_; }
+  const std::vector<Color>& texels() const { return texels_; }
   const Color& texel(int x, int y) const {
     return texels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                    static_cast<std::size_t>(x)];

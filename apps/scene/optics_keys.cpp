@@ -42,6 +42,11 @@ void visit_optics(render::Material& m, KeyVisitor& v) {
          .bounds = between(0, 1),
          .meaning = "how far from the silhouette the fuzz is seen"},
         &m.sheen_roughness);
+  v.key({.name = "opacity",
+         .bounds = between(0, 1),
+         .meaning =
+             "part of the surface that is there: light goes straight through the rest, in shadows as well"},
+        &m.opacity);
 }
 
 }  // namespace lagomorph::apps

@@ -5,6 +5,12 @@
 
 /// What path_tracer.cpp leaves of the ways through bodies.
 namespace lagomorph::render::path {
+namespace {
+
+constexpr std::uint32_t most_crossings = 1024;       // of a ray; the last surface stops it
+constexpr std::uint32_t first_crossing = 1U << 24U;  // of the sample pairs, behind those of RandomWalk
+
+}  // namespace
 
 void PathTracer::add_light(std::uint32_t lane, const Color& light) {
   const float most = light.maxCoeff();
@@ -54,6 +60,76 @@ void PathTracer::leave_cloudy_insides() {
     v.least_pdf = std::min(v.least_pdf, std::numbers::inv_pi_v<float>);
   }
   entered_.clear();
+}
+
+/// Whether the path goes on behind the surface that its ray has met after as many others.
+bool PathTracer::passes(std::size_t path, std::uint32_t depth, std::uint32_t crossing) const {
+  if (hits_[path].mesh == MeshHit::none || crossing >= most_crossings) return false;
+  const float opacity = shading_.opacities[hits_[path].mesh];
+  return opacity < 1.0F &&
+         paths_[path].samples.pair(first_crossing + depth * most_crossings + crossing).u >= opacity;
+}
+
+/// Replaces the hits of paths that do not stop there by those further on along the same rays.
+void PathTracer::pass_through(std::uint32_t depth) {
+  passing_.clear();
+  passing_rays_.clear();
+  for (std::size_t i = 0; i < rays_.size(); ++i) {
+    if (!passes(i, depth, 0)) continue;
+    passing_.push_back(i);
+    passing_rays_.push_back(rays_[i]);
+  }
+  for (std::uint32_t crossing = 1; !passing_.empty(); ++crossing) {
+    for (std::size_t k = 0; k < passing_.size(); ++k) {
+      Ray& ray = passing_rays_[k];
+      const MeshHit& hit = hits_[passing_[k]];
+      ray.origin = geometry_.behind(ray, hit, geometry_.meet(ray, hit));
+    }
+    passing_hits_.resize(passing_.size());
+    geometry_.caster().intersect(passing_rays_, Coherence::incoherent, passing_hits_);
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < passing_.size(); ++k) {
+      const std::size_t i = passing_[k];
+      hits_[i] = passing_hits_[k];
+      if (!passes(i, depth, crossing)) continue;
+      passing_[kept] = i;
+      passing_rays_[kept++] = passing_rays_[k];
+    }
+    passing_.resize(kept);
+    passing_rays_.resize(kept);
+  }
+}
+
+/// Of the blocked shadow rays, those that only meet what is not opaque keep some of their light.
+void PathTracer::dim_shadows(Coherence coherence) {
+  passing_.clear();
+  for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
+    if (blocked_[i] != 0) passing_.push_back(i);
+  }
+  for (std::uint32_t crossing = 0; !passing_.empty() && crossing < most_crossings; ++crossing) {
+    passing_rays_.clear();
+    for (const std::size_t i : passing_) passing_rays_.push_back(shadow_rays_[i]);
+    passing_hits_.resize(passing_.size());
+    geometry_.caster().intersect(passing_rays_, coherence, passing_hits_);
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < passing_.size(); ++k) {
+      const std::size_t i = passing_[k];
+      const MeshHit& hit = passing_hits_[k];
+      blocked_[i] = 0;
+      if (hit.mesh == MeshHit::none) continue;
+      Ray& ray = shadow_rays_[i];
+      const SceneGeometry::TriangleHit at = geometry_.meet(ray, hit);
+      if (at.t >= static_cast<double>(shadow_distances_[i])) continue;
+      blocked_[i] = 1;
+      const float opacity = shading_.opacities[hit.mesh];
+      if (opacity >= 1.0F) continue;
+      shadow_light_[i] *= 1.0F - opacity;
+      shadow_distances_[i] -= static_cast<float>(at.t);
+      ray.origin = geometry_.behind(ray, hit, at);
+      passing_[kept++] = i;
+    }
+    passing_.resize(kept);
+  }
 }
 
 }  // namespace lagomorph::render::path

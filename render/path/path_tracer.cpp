@@ -150,6 +150,7 @@ void PathTracer::trace_batch(std::uint32_t depth) {
     for (std::size_t i = 0; i < rays_.size(); ++i) rays_[i].time = times_[paths_[i].lane];
   }
   geometry_.caster().intersect(rays_, depth == 0 ? Coherence::coherent : Coherence::incoherent, hits_);
+  if (shading_.see_through) pass_through(depth);
   if (depth == 0) indirect_.assign(radiance_.size(), 0);
   arrive(depth);
   leave_cloudy_insides();
@@ -416,6 +417,7 @@ void PathTracer::trace_shadows(Coherence coherence) {
     for (std::size_t i = 0; i < shadow_rays_.size(); ++i) shadow_rays_[i].time = times_[shadow_lanes_[i]];
   }
   geometry_.caster().occluded(shadow_rays_, shadow_distances_, coherence, blocked_);
+  if (shading_.see_through) dim_shadows(coherence);
   for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
     if (blocked_[i] == 0) add_light(shadow_lanes_[i], shadow_light_[i]);
   }

@@ -41,6 +41,9 @@ struct Tile {
 /// fourth surface on, dim paths are ended by Russian roulette. The lights are no obstacle; one that is
 /// visible is opaque to the camera.
 ///
+/// Surfaces that are not opaque: a path stops at one with the probability of its opacity and else goes
+/// straight on, which is no bounce; shadow rays lose that part of their light.
+///
 /// Clear insides: shadow rays do not pass them, light behind is found by the scattered ray alone. From
 /// inside, what the surface lets out is estimated like any other light. Cloudy insides: a path that enters
 /// one goes on where its random walk leaves the body, as if it had arrived there.
@@ -102,6 +105,8 @@ private:
   void begin_path(std::uint32_t lane, int x, int y, const PathSamples&);
   void finish_batch();
   void trace_batch(std::uint32_t depth);
+  void pass_through(std::uint32_t depth);
+  bool passes(std::size_t path, std::uint32_t depth, std::uint32_t crossing) const;
   void arrive(std::uint32_t depth);
   Ahead look(const Ray&, const MeshHit&) const;
   Color seen_by_camera(const Ray&, Ahead&) const;
@@ -123,6 +128,7 @@ private:
   void gather_sky(std::uint32_t depth);
   void push_shadow(const Ray&, float distance, const Color& arriving, std::uint32_t lane);
   void trace_shadows(Coherence);
+  void dim_shadows(Coherence);
   void scatter(std::uint32_t depth);
 
   const SceneGeometry& geometry_;
@@ -141,6 +147,9 @@ private:
   RandomWalk walks_;
   std::vector<Vertex> entered_;         // where each walk began
   std::vector<std::uint8_t> indirect_;  // by lane: light now comes over two counted surfaces or more
+  std::vector<std::size_t> passing_;    // rays that go on behind a surface, their continuations and hits
+  std::vector<Ray> passing_rays_;
+  std::vector<MeshHit> passing_hits_;
   std::vector<Ray> shadow_rays_;
   std::vector<float> shadow_distances_;
   std::vector<Color> shadow_light_;  // what arrives when nothing is in the way

@@ -167,6 +167,17 @@ SurfacePoint SceneGeometry::arrive(const Ray& ray, const MeshHit& hit, const Tri
   return {origin, facing(shading, wo), beyond, side < 0.0F, shading};
 }
 
+Vec3 SceneGeometry::behind(const Ray& ray, const MeshHit& hit, const TriangleHit& at) const {
+  const Moving& m = meshes_[hit.mesh];
+  const Triangle& triangle = m.triangles[hit.triangle];
+  const Eigen::Vector3d a = position(m, triangle[0], ray.time);
+  const Eigen::Vector3d e1 = position(m, triangle[1], ray.time) - a;
+  const Eigen::Vector3d e2 = position(m, triangle[2], ray.time) - a;
+  const Vec3 flat = e1.cross(e2).normalized().cast<float>();
+  const Vec3 p = (a + at.u * e1 + at.v * e2).cast<float>();
+  return offset_along(p, flat.dot(ray.direction) < 0.0F ? Vec3(-flat) : flat);
+}
+
 Vec3 SceneGeometry::position_at(const MeshHit& hit, const TriangleHit& at) const {
   const Moving& m = meshes_[hit.mesh];
   return interpolated(m.positions, m.triangles[hit.triangle], at.u, at.v);

@@ -48,6 +48,8 @@ public:
   TriangleHit meet(const Ray&, const MeshHit&) const;
   /// The surface at a hit.
   SurfacePoint arrive(const Ray&, const MeshHit&, const TriangleHit&) const;
+  /// Where a ray goes on straight behind a hit, so that it does not meet it again.
+  Vec3 behind(const Ray&, const MeshHit&, const TriangleHit&) const;
   /// Where a hit is at time 1, and where that point of the mesh was at the frame before.
   Vec3 position_at(const MeshHit&, const TriangleHit&) const;
   Vec3 previous_at(const MeshHit&, const TriangleHit&) const;

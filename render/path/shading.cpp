@@ -14,7 +14,11 @@ Shading::Shading(const RenderScene& scene)
     brdfs.emplace_back(material);
     albedos.push_back(albedo(material));
   };
-  for (const Mesh& mesh : scene.meshes) add(mesh.material);
+  for (const Mesh& mesh : scene.meshes) {
+    add(mesh.material);
+    opacities.push_back(mesh.material.opacity);
+    see_through = see_through || mesh.material.opacity < 1.0F;
+  }
   add(scene.ground.material);
   float total = 0.0F;
   for (const AreaLight& light : scene.lights) {

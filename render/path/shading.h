@@ -15,8 +15,10 @@ namespace lagomorph::render::path {
 struct Shading {
   explicit Shading(const RenderScene&);
 
-  std::vector<Bsdf> brdfs;     // a mesh each, then the ground's
-  std::vector<Color> albedos;  // likewise
+  std::vector<Bsdf> brdfs;       // a mesh each, then the ground's
+  std::vector<Color> albedos;    // likewise
+  std::vector<float> opacities;  // of the meshes
+  bool see_through = false;      // some are not opaque
   std::vector<RectangleLight> lights;
   std::vector<float> pick;  // probability of each light where one is picked
   std::vector<SunLight> suns;

@@ -23,7 +23,7 @@ struct LightBlock {
   Vec4 up;        // xyz unit, w half the height [m]
   Vec4 normal;    // xyz unit; w solid angle of what is so far that it is the same everywhere, a sun; 0
                   // otherwise [sr]
-  Vec4 radiance;  // rgb [W/(sr m^2)]
+  Vec4 radiance;  // rgb [W/(sr m^2)], w 1 for a sun whose disc is seen in the sky
   Vec4 map;       // tangents (x/z, y/z) to the shadow map's [0, 1]: scale xy, offset zw
   Vec4 depth;  // 1/z = d x + y of a depth d in the map; z: the largest 1/z of a caster; w: least height of a
                // blocker above the receiver's plane [m]
@@ -32,14 +32,14 @@ struct LightBlock {
 struct SkyDirectionBlock {
   Vec4 right;      // xyz unit
   Vec4 up;         // xyz unit
-  Vec4 direction;  // xyz unit, towards the sky
-  Vec4 radiance;   // rgb of the sky there
+  Vec4 direction;  // xyz unit, towards the sky; of a map, w tangent of the angle that it stands for
+  Vec4 radiance;   // rgb of the sky there, or of a map the light of all that it stands for
 };
 
 /// A row of the shaders' table of surfaces (std430).
 struct SurfaceBlock {
   Vec4 color;   // base colour, or radiance of a light; w 1 for a light
-  Vec4 finish;  // roughness, metallic, the dielectric's f0
+  Vec4 finish;  // roughness, metallic, the dielectric's f0, opacity
 };
 
 struct FrameBlock {
@@ -60,6 +60,7 @@ struct FrameBlock {
   Vec4 shadowed_ground;  // least x and z, largest x and z of the ground that meshes can hide a light from [m]
   Vec4 sky_map;          // xyz centre [m], w 1 / radius of the meshes' sphere [1/m]
   Vec4 counts;           // lights, taps of the shadow filter, directions of the sky, size of the ground map
+  Vec4 sky_picture;      // of a map: turns of its middle from -z, level of detail at a pixel, strength
   std::array<LightBlock, most_lights> lights;
   std::array<SkyDirectionBlock, most_sky_directions> sky;
 };

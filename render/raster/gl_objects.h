@@ -30,6 +30,7 @@ using Buffer = GlName<glGenBuffers, glDeleteBuffers>;
 using VertexArray = GlName<glGenVertexArrays, glDeleteVertexArrays>;
 using Texture = GlName<glGenTextures, glDeleteTextures>;
 using Renderbuffer = GlName<glGenRenderbuffers, glDeleteRenderbuffers>;
+using Query = GlName<glGenQueries, glDeleteQueries>;
 using Framebuffer = GlName<glGenFramebuffers, glDeleteFramebuffers>;
 
 /// A vertex and a fragment shader, linked. The parts of each are put one after the other, after the version

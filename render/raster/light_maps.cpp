@@ -1,11 +1,13 @@
 #include "render/raster/light_maps.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "render/ground_texture.h"
 #include "render/raster/light_view.h"
 #include "render/raster/shaders/shaders.h"
+#include "render/raster/sky_light.h"
 #include "render/raster/sky_model.h"
 #include "render/raster/stand_ins.h"
 
@@ -16,6 +18,7 @@ constexpr int sky_map_size = 256;
 constexpr int ground_map_size = 128;
 constexpr int sky_table_size = 64;
 constexpr int coat_table_size = 32;
+constexpr int widest_sky_picture = 8192;  // 512 MB with its levels
 
 void sampling(GLenum target, GLenum minify, GLenum magnify) {
   glTexParameteri(target, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(minify));
@@ -46,6 +49,34 @@ void allocate_table(const Texture& texture, int width, int height, const std::ve
   sampling(GL_TEXTURE_2D, GL_LINEAR, GL_LINEAR);
 }
 
+/// A level each.
+void allocate_cubes(const Texture& texture, std::span<const CubeMap<Vec4>> levels) {
+  glBindTexture(GL_TEXTURE_CUBE_MAP, texture.id());
+  glTexStorage2D(GL_TEXTURE_CUBE_MAP, static_cast<GLsizei>(levels.size()), GL_RGBA32F, levels[0].size(),
+                 levels[0].size());
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    const int size = levels[level].size();
+    for (int face = 0; face < 6; ++face) {
+      glTexSubImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face), static_cast<GLint>(level),
+                      0, 0, size, size, GL_RGBA, GL_FLOAT, levels[level].at(face, 0, 0).data());
+    }
+  }
+  sampling(GL_TEXTURE_CUBE_MAP, levels.size() > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR, GL_LINEAR);
+}
+
+/// Half floats, which end at 65504.
+void allocate_picture(const Texture& texture, const SkyMap& map) {
+  std::vector<Color> texels = map.texels();
+  for (Color& texel : texels) texel = texel.min(65504.0F);
+  const int levels = std::bit_width(static_cast<unsigned>(std::max(map.width(), map.height())));
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glTexStorage2D(GL_TEXTURE_2D, levels, GL_RGB16F, map.width(), map.height());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, map.width(), map.height(), GL_RGB, GL_FLOAT, texels.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  sampling(GL_TEXTURE_2D, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+}
+
 /// The sphere around all positions, on a grid of a sixteenth of its size or so, see fit_light_view().
 struct Sphere {
   Vec3 center = Vec3::Zero();
@@ -68,10 +99,7 @@ Sphere bounding_sphere(std::span<const std::vector<Vec3>> positions, const Eigen
 
 LightMaps::LightMaps(const RasterSettings& settings)
     : settings_(settings),
-      depth_program_("depth map", {shaders::depth_map_vertex}, {shaders::depth_map_fragment}),
-      ground_program_("ground map", {shaders::full_screen_vertex},
-                      {shaders::frame, shaders::brdf, shaders::shadow, shaders::sky, shaders::ground_color,
-                       shaders::ground_map_fragment}) {
+      depth_program_("depth map", {shaders::depth_map_vertex}, {shaders::depth_map_fragment}) {
   allocate_table(sky_table_, sky_table_size, 1, sky_irradiance_table(sky_table_size));
   allocate_table(coat_table_, coat_table_size, coat_table_size, coat_albedo_table(coat_table_size));
   allocate_depth(sky_maps_, sky_map_size, most_sky_directions);
@@ -91,7 +119,37 @@ LightMaps::LightMaps(const RasterSettings& settings)
   check_framebuffer("ground map");
 }
 
-void LightMaps::set_scene(const RenderScene& scene, FrameBlock& block) {
+/// The light of the scene's map, and the map itself where the camera may see it.
+void LightMaps::set_sky_map(const RenderScene& scene, FrameBlock& block) {
+  const SkyMap& map = *scene.sky.map;
+  const SkyLight light = sky_light(scene.sky);
+  block.sky = light.directions;
+  sky_textures_.emplace();
+  allocate_cubes(sky_textures_->irradiance_above, {&light.irradiance_above, 1});
+  allocate_cubes(sky_textures_->radiance_below, {&light.radiance_below, 1});
+  allocate_cubes(sky_textures_->lobes_above, light.lobes_above);
+  allocate_cubes(sky_textures_->lobes_below, light.lobes_below);
+  glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+  block.sky_picture = Vec4(map.turn(), 0.0F, scene.sky.strength, 0.0F);
+  if (!scene.background) allocate_picture(sky_textures_->picture, reduced(map, widest_sky_picture));
+  check_gl("the sky's map");
+}
+
+void LightMaps::set_scene(const RenderScene& scene, const LightFeatures& features, FrameBlock& block) {
+  if (!ground_program_ || !(features == features_)) {
+    features_ = features;
+    using Parts = Program::Parts;
+    ground_program_.reset();
+    ground_program_.emplace(
+        "ground map", Parts{shaders::full_screen_vertex},
+        Parts{features.definitions().c_str(), shaders::frame, shaders::brdf, shaders::shadow, shaders::sky,
+              shaders::ground_color, shaders::ground_map_fragment});
+  }
+  if (features.see_through && !see_through_depth_program_) {
+    using Parts = Program::Parts;
+    see_through_depth_program_.emplace("depth map of dots", Parts{shaders::depth_map_vertex},
+                                       Parts{shaders::see_through_depth_map_fragment});
+  }
   const int layers = std::max<int>(1, static_cast<int>(scene.lights.size()));
   if (layers != shadow_layers_) {
     shadow_maps_ = Texture();
@@ -108,9 +166,16 @@ void LightMaps::set_scene(const RenderScene& scene, FrameBlock& block) {
     b.up = vec4(frame.up, 0.5F * light.size.y());
     const std::size_t first_sun = scene.lights.size() - scene.suns.size();
     b.normal = vec4(frame.normal, i < first_sun ? 0.0F : solid_angle(scene.suns[i - first_sun]));
-    b.radiance = vec4(Color(light.color * light.radiance), 0.0F);
+    const bool disc = features.sun_discs && i >= first_sun && scene.suns[i - first_sun].visible;
+    b.radiance = vec4(Color(light.color * light.radiance), disc ? 1.0F : 0.0F);
   }
-  block.sky = sky_directions(scene.sky);
+  if (scene.sky.map) {
+    set_sky_map(scene, block);
+  } else {
+    sky_textures_.reset();
+    block.sky = sky_directions(scene.sky);
+    block.sky_picture = Vec4::Zero();
+  }
   block.zenith = vec4(Color(scene.sky.strength * scene.sky.zenith), 0.0F);
   block.horizon = vec4(Color(scene.sky.strength * scene.sky.horizon), 0.0F);
   block.background = scene.background ? vec4(*scene.background, 1.0F) : Vec4::Zero();
@@ -152,7 +217,9 @@ void LightMaps::fit(const RenderScene& scene, std::span<const std::vector<Vec3>>
   }
   block.counts.z() = box.isEmpty() ? 0.0F : static_cast<float>(most_sky_directions);
   block.sky_map = vec4(sphere.center, 1.0F / sphere.radius);
-  const float half = 1.5F * sphere.radius + std::max(sphere.center.y() - scene.ground.height, 0.0F);
+  const float shadows =
+      scene.sky.map ? 2.0F : 1.0F;  // of the meshes' height: those of a bright patch are long
+  const float half = 1.5F * sphere.radius + shadows * std::max(sphere.center.y() - scene.ground.height, 0.0F);
   const float scale = 0.5F / half;
   block.ground_map = Vec4(scale, 2.0F * half / static_cast<float>(ground_map_size),
                           0.5F - scale * sphere.center.x(), 0.5F - scale * sphere.center.z());
@@ -163,11 +230,24 @@ void LightMaps::draw_depth(const Texture& maps, int layer, int size, const Mat4&
   bind(depth_target_, size, size);
   glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, maps.id(), 0, layer);
   glClear(GL_DEPTH_BUFFER_BIT);
+  depth_program_.use();
   glUniformMatrix4fv(depth_program_.location("clip_from_world"), 1, GL_FALSE, clip_from_world.data());
   for (const MeshBuffers& mesh : meshes) {
+    if (mesh.see_through()) continue;
     // The first surface on the light's way is a front face; where one is inverted, the next one still stops
     // the light.
     mesh.closed() ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
+    mesh.draw();
+  }
+  if (!features_.see_through) return;
+  see_through_depth_program_->use();
+  const auto location = [&](const char* name) { return see_through_depth_program_->location(name); };
+  glUniformMatrix4fv(location("clip_from_world"), 1, GL_FALSE, clip_from_world.data());
+  glDisable(GL_CULL_FACE);
+  for (const MeshBuffers& mesh : meshes) {
+    if (!mesh.see_through()) continue;
+    glUniform1f(location("opacity"), mesh.material().opacity);
+    glUniform1i(location("body"), mesh.body_id());
     mesh.draw();
   }
 }
@@ -175,7 +255,6 @@ void LightMaps::draw_depth(const Texture& maps, int layer, int size, const Mat4&
 void LightMaps::draw(std::span<const MeshBuffers> meshes) {
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
-  depth_program_.use();
   for (std::size_t i = 0; i < light_views_.size(); ++i)
     draw_depth(shadow_maps_, static_cast<int>(i), settings_.shadow_map, light_views_[i], meshes);
   for (std::size_t i = 0; i < sky_views_.size(); ++i)
@@ -184,7 +263,7 @@ void LightMaps::draw(std::span<const MeshBuffers> meshes) {
   bind(ground_target_, ground_map_size, ground_map_size);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
-  ground_program_.use();
+  ground_program_->use();
   glBindVertexArray(no_attributes_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glActiveTexture(GL_TEXTURE4);
@@ -202,6 +281,15 @@ void LightMaps::bind_textures() const {
     glActiveTexture(GL_TEXTURE2 + unit);
     glBindTexture(GL_TEXTURE_2D, maps[unit]->id());
   }
+  if (!sky_textures_) return;
+  const Texture* const cubes[] = {&sky_textures_->irradiance_above, &sky_textures_->radiance_below,
+                                  &sky_textures_->lobes_above, &sky_textures_->lobes_below};
+  for (GLenum unit = 0; unit < 4; ++unit) {
+    glActiveTexture(GL_TEXTURE7 + unit);
+    glBindTexture(GL_TEXTURE_CUBE_MAP, cubes[unit]->id());
+  }
+  glActiveTexture(GL_TEXTURE11);
+  glBindTexture(GL_TEXTURE_2D, sky_textures_->picture.id());
 }
 
 }  // namespace lagomorph::render::raster

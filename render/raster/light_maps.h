@@ -1,12 +1,14 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "render/raster/frame_block.h"
 #include "render/raster/gl_objects.h"
 #include "render/raster/mesh_buffers.h"
+#include "render/raster/programs.h"
 #include "render/render_scene.h"
 #include "render/settings.h"
 
@@ -18,8 +20,9 @@ class LightMaps {
 public:
   explicit LightMaps(const RasterSettings&);
 
-  /// Lights, sky and ground of the scene (with_stand_ins()) into the frame's block.
-  void set_scene(const RenderScene&, FrameBlock&);
+  /// Lights, sky and ground of the scene (with_stand_ins()) into the frame's block, for shaders with these
+  /// features.
+  void set_scene(const RenderScene&, const LightFeatures&, FrameBlock&);
   /// Fits the maps to new positions and says so in the frame's block.
   void fit(const RenderScene&, std::span<const std::vector<Vec3>> positions, FrameBlock&);
   /// Draws the maps of what was fitted; the block is bound.
@@ -28,12 +31,21 @@ public:
   void bind_textures() const;
 
 private:
+  void set_sky_map(const RenderScene&, FrameBlock&);
   void draw_depth(const Texture& maps, int layer, int size, const Mat4& clip_from_world,
                   std::span<const MeshBuffers> meshes);
 
   RasterSettings settings_;
-  Program depth_program_, ground_program_;
+  Program depth_program_;
+  std::optional<Program> see_through_depth_program_;  // compiled when it is needed
+  std::optional<Program> ground_program_;             // for features_
+  LightFeatures features_;
   Texture shadow_maps_, sky_maps_, sky_table_, coat_table_, ground_ambient_, ground_bounce_;
+  /// A map of the sky, see sky_light.h.
+  struct SkyTextures {
+    Texture irradiance_above, radiance_below, lobes_above, lobes_below, picture;
+  };
+  std::optional<SkyTextures> sky_textures_;
   Framebuffer depth_target_, ground_target_;
   VertexArray no_attributes_;
   std::vector<Mat4> light_views_, sky_views_;

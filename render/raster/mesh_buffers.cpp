@@ -50,6 +50,7 @@ MeshBuffers::MeshBuffers(const Mesh& mesh)
     : triangles_(mesh.triangles),
       topology_(mesh.triangles, mesh.positions.size()),
       material_(mesh.material),
+      body_id_(mesh.body_id),
       smooth_(mesh.smooth),
       closed_(is_closed(mesh.triangles, mesh.positions)),
       colored_(!mesh.colors.empty()) {

@@ -32,12 +32,15 @@ public:
   bool closed() const { return closed_; }
   bool colored() const { return colored_; }
   bool moves() const { return moves_; }
+  bool see_through() const { return material_.opacity < 1.0F; }
+  int body_id() const { return body_id_; }
 
 private:
   std::vector<Triangle> triangles_;
   VertexNormals topology_;
   std::vector<Vec3> normals_;
   Material material_;
+  int body_id_;
   bool smooth_, closed_, colored_;
   bool moves_ = false;
   VertexArray vertex_array_;

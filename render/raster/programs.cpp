@@ -15,29 +15,50 @@ std::string definitions(int multisample, bool colors) {
 
 const char* color_definition(bool colors) { return colors ? "#define COLORS\n" : ""; }
 
-SeenPrograms::SeenPrograms(int multisample, bool colors)
+std::string LightFeatures::definitions() const {
+  return std::string(sky_map ? "#define SKY_MAP\n" : "") + (sun_discs ? "#define SUN_DISCS\n" : "") +
+         (see_through ? "#define SEE_THROUGH\n" : "");
+}
+
+SeenPrograms::SeenPrograms(int multisample, bool colors, const LightFeatures& light_features)
     : mesh("seen mesh", {color_definition(colors), shaders::frame, shaders::mesh_vertex},
            {color_definition(colors), shaders::frame, shaders::seen_fragment}),
       light("seen light", {shaders::frame, shaders::emitter_vertex},
             {"#define EMITTER\n", color_definition(colors), shaders::frame, shaders::seen_fragment}),
       layer("layer", {shaders::frame, shaders::layer_vertex},
-            {"#define SHADOWS\n", definitions(multisample, colors).c_str(), shaders::frame, shaders::brdf,
-             shaders::shadow, shaders::sky, shaders::shade, shaders::ground_point, shaders::layers,
-             shaders::layer_fragment}) {}
+            {"#define SHADOWS\n", light_features.definitions().c_str(),
+             definitions(multisample, colors).c_str(), shaders::frame, shaders::brdf, shaders::shadow,
+             shaders::sky, shaders::shade, shaders::ground_point, shaders::layers, shaders::layer_fragment}) {
+}
 
-Programs::Programs(int multisample)
-    : seen(multisample, false),
+PeelPrograms::PeelPrograms(int multisample, bool colors, const LightFeatures& light_features)
+    : mesh("peeled mesh", {"#define PEEL\n", color_definition(colors), shaders::frame, shaders::mesh_vertex},
+           {"#define PEEL\n", definitions(multisample, colors).c_str(), shaders::frame,
+            shaders::seen_fragment}),
+      count("count of peeled layers", {shaders::full_screen_vertex},
+            {"#define PEEL\n", definitions(multisample, false).c_str(), shaders::frame, shaders::layers,
+             shaders::count_fragment}),
+      layer("peeled layer", {shaders::frame, shaders::layer_vertex},
+            {"#define PEEL\n#define SHADOWS\n", light_features.definitions().c_str(),
+             definitions(multisample, colors).c_str(), shaders::frame, shaders::brdf, shaders::shadow,
+             shaders::sky, shaders::shade, shaders::ground_point, shaders::layers, shaders::layer_fragment}),
+      composite("peeled surfaces over the picture", {shaders::full_screen_vertex},
+                {shaders::composite_fragment}) {}
+
+Programs::Programs(int multisample, const LightFeatures& light_features)
+    : seen(multisample, false, light_features),
       ground_cover("ground cover", {shaders::frame, shaders::ground_vertex},
                    {shaders::frame, shaders::ground_point, shaders::ground_cover_fragment}),
-      background("background", {shaders::full_screen_vertex},
-                 {shaders::frame, shaders::sky, shaders::background_fragment}),
+      background(
+          "background", {shaders::full_screen_vertex},
+          {light_features.definitions().c_str(), shaders::frame, shaders::sky, shaders::background_fragment}),
       ground("ground", {shaders::frame, shaders::ground_vertex},
-             {shaders::frame, shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point,
-              shaders::ground_color, shaders::ground_fragment}),
-      shadowed_ground(
-          "shadowed ground", {shaders::frame, shaders::ground_vertex},
-          {"#define SHADOWS\n", shaders::frame, shaders::brdf, shaders::shadow, shaders::sky, shaders::shade,
-           shaders::ground_point, shaders::ground_color, shaders::ground_fragment}),
+             {light_features.definitions().c_str(), shaders::frame, shaders::brdf, shaders::sky,
+              shaders::shade, shaders::ground_point, shaders::ground_color, shaders::ground_fragment}),
+      shadowed_ground("shadowed ground", {shaders::frame, shaders::ground_vertex},
+                      {"#define SHADOWS\n", light_features.definitions().c_str(), shaders::frame,
+                       shaders::brdf, shaders::shadow, shaders::sky, shaders::shade, shaders::ground_point,
+                       shaders::ground_color, shaders::ground_fragment}),
       count("count of layers", {shaders::full_screen_vertex},
             {definitions(multisample, false).c_str(), shaders::frame, shaders::layers,
              shaders::count_fragment}),

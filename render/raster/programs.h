@@ -1,15 +1,36 @@
 #pragma once
 
+#include <string>
+
 #include "render/raster/gl_objects.h"
 
 namespace lagomorph::render::raster {
 
+/// What of a scene's light the shaders are made for.
+struct LightFeatures {
+  bool sky_map = false;      // the sky is a map
+  bool sun_discs = false;    // suns are seen in the sky
+  bool see_through = false;  // some bodies are not opaque
+  bool operator==(const LightFeatures&) const = default;
+
+  /// For all shaders that know of the sky.
+  std::string definitions() const;
+};
+
 /// What draws the samples that say what is seen, and what lights them; `colors`: where meshes have colours of
 /// their vertices.
 struct SeenPrograms {
-  SeenPrograms(int multisample, bool colors);
+  SeenPrograms(int multisample, bool colors, const LightFeatures&);
 
   Program mesh, light, layer;
+};
+
+/// What draws the surfaces that are not opaque, the next one of each sample at a time, lights them, and lays
+/// them over the picture.
+struct PeelPrograms {
+  PeelPrograms(int multisample, bool colors, const LightFeatures&);
+
+  Program mesh, count, layer, composite;
 };
 
 /// For shaders of meshes whose vertices have colours.
@@ -17,7 +38,7 @@ const char* color_definition(bool colors);
 
 /// All but those of LightMaps, and those that few scenes need.
 struct Programs {
-  explicit Programs(int multisample);
+  Programs(int multisample, const LightFeatures&);
 
   SeenPrograms seen;
   Program ground_cover, background, ground, shadowed_ground, count, mesh_depth, ground_depth;

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +27,8 @@ namespace lagomorph::render {
 namespace {
 
 using namespace raster;
+
+constexpr int most_peels = 256;  // surfaces that are not opaque, one behind the other
 
 RasterSettings checked(const RasterSettings& s) {
   if (s.multisample != 1 && s.multisample != 4) {
@@ -70,8 +74,9 @@ public:
 private:
   /// All that lives in the context.
   struct GlSide {
-    explicit GlSide(const RasterSettings& settings) : programs(settings.multisample), maps(settings) {}
-    Programs programs;
+    explicit GlSide(const RasterSettings& settings) : maps(settings) {}
+    LightFeatures features;
+    std::optional<Programs> programs;  // for these, from the first scene on
     LightMaps maps;
     Buffer frame, surfaces;
     VertexArray no_attributes;
@@ -81,21 +86,26 @@ private:
     std::optional<Program> alpha;         // likewise
     std::optional<DataPass> data;         // likewise
     std::optional<SeenPrograms> colored;  // likewise; used where a mesh has colours of its vertices
+    std::optional<PeelPrograms> peel;     // used where a mesh is not opaque
+    bool peel_has_colors = false;
     bool has_colors = false;
 
-    const SeenPrograms& seen() const { return has_colors ? *colored : programs.seen; }
+    const SeenPrograms& seen() const { return has_colors ? *colored : programs->seen; }
   };
 
   void check_mesh_number(int mesh) const;
+  void make_programs();
   void upload_surfaces(const RenderScene&);
   Mat4 upload_frame(const Camera&, const Camera& before);
   void draw_full_screen() const;
   void draw_ground_cells(const Program&, bool shadowed) const;
-  void draw_meshes(const Program&) const;
+  enum class Which { all, opaque, see_through };
+  void draw_meshes(const Program&, Which which = Which::all) const;
   bool ground_hides(const Camera&) const;
   void draw_seen(bool behind_ground) const;
   void draw_background() const;
-  void draw_layers() const;
+  void draw_layers(const Program& count, const Program& layer) const;
+  void draw_see_through() const;
   void draw_depth() const;
   void draw_body_ids(Image&);
   void draw_alpha(Image&);
@@ -121,7 +131,7 @@ private:
 SurfaceBlock surface_block(const Material& material) {
   const Material m = optics_stand_in(material);
   const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
-  return {vec4(m.base_color, 0.0F), Vec4(m.roughness, m.metallic, r * r, 0.0F)};
+  return {vec4(m.base_color, 0.0F), Vec4(m.roughness, m.metallic, r * r, m.opacity)};
 }
 
 void RasterRenderer::set_scene(const RenderScene& scene) {
@@ -143,11 +153,34 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
   }
   gl_->has_colors = std::any_of(gl_->meshes.begin(), gl_->meshes.end(),
                                 [](const MeshBuffers& mesh) { return mesh.colored(); });
-  if (gl_->has_colors && !gl_->colored) gl_->colored.emplace(raster_.multisample, true);
+  make_programs();
   upload_surfaces(scene);
-  gl_->maps.set_scene(scene_, block_);
+  gl_->maps.set_scene(scene_, gl_->features, block_);
   lights_are_stale_ = true;
   check_gl("taking the scene");
+}
+
+/// Those that the scene needs.
+void RasterRenderer::make_programs() {
+  const bool sees_suns = !scene_.background && std::any_of(scene_.suns.begin(), scene_.suns.end(),
+                                                           [](const Sun& sun) { return sun.visible; });
+  const bool see_through = std::any_of(gl_->meshes.begin(), gl_->meshes.end(),
+                                       [](const MeshBuffers& mesh) { return mesh.see_through(); });
+  const LightFeatures features{scene_.sky.map != nullptr, sees_suns, see_through};
+  if (!gl_->programs || !(features == gl_->features)) {
+    gl_->features = features;
+    gl_->programs.reset();
+    gl_->programs.emplace(raster_.multisample, features);
+    gl_->colored.reset();
+    gl_->peel.reset();
+    gl_->alpha.reset();
+  }
+  if (gl_->has_colors && !gl_->colored) gl_->colored.emplace(raster_.multisample, true, features);
+  if (see_through && (!gl_->peel || gl_->peel_has_colors != gl_->has_colors)) {
+    gl_->peel.reset();
+    gl_->peel.emplace(raster_.multisample, gl_->has_colors, features);
+    gl_->peel_has_colors = gl_->has_colors;
+  }
 }
 
 /// The ground, the meshes, the lights.
@@ -209,6 +242,11 @@ Mat4 RasterRenderer::upload_frame(const Camera& camera, const Camera& before) {
   block_.right = vec4(Vec3(camera.right() / projection(0, 0)), 0.0F);
   block_.up = vec4(Vec3(camera.up() / projection(1, 1)), 0.0F);
   block_.viewport = Vec4(width, height, 1.0F / width, 1.0F / height);
+  if (scene_.sky.map && !camera.is_orthographic()) {
+    const float texels = 2.0F * block_.up.norm() / height * static_cast<float>(scene_.sky.map->height()) /
+                         std::numbers::pi_v<float>;  // in a pixel
+    block_.sky_picture.y() = std::max(std::log2(texels), 0.0F);
+  }
   glBindBuffer(GL_UNIFORM_BUFFER, gl_->frame.id());
   glBufferData(GL_UNIFORM_BUFFER, sizeof(FrameBlock), &block_, GL_DYNAMIC_DRAW);
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, gl_->frame.id());
@@ -244,7 +282,10 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
   glScissor(seen.x, seen.y, seen.width, seen.height);
   glEnable(GL_SCISSOR_TEST);
   draw_seen(ground_hides(camera));
-  draw_layers();
+  gl_->targets->bind_color();
+  gl_->targets->bind_seen_textures();
+  draw_layers(gl_->programs->count, gl_->seen().layer);
+  if (gl_->features.see_through) draw_see_through();
   glDisable(GL_SCISSOR_TEST);
   targets->read_color(image);
   if (wants(depth_channel)) {
@@ -277,12 +318,14 @@ void RasterRenderer::draw_ground_cells(const Program& program, bool shadowed) co
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, shadowed ? 1 : 8);
 }
 
-void RasterRenderer::draw_meshes(const Program& program) const {
+void RasterRenderer::draw_meshes(const Program& program, Which which) const {
   program.use();
   GLuint surface = 1;
   for (const MeshBuffers& mesh : gl_->meshes) {
-    mesh.closed() ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
-    glUniform1ui(program.location("surface"), surface++);
+    const GLuint number = surface++;
+    if (which != Which::all && mesh.see_through() != (which == Which::see_through)) continue;
+    mesh.closed() && which != Which::see_through ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
+    glUniform1ui(program.location("surface"), number);
     glUniform1i(program.location("is_smooth"), mesh.smooth() ? 1 : 0);
     glUniform1i(program.location("is_colored"), mesh.colored() ? 1 : 0);
     glUniform1i(program.location("moves"), mesh.moves() ? 1 : 0);
@@ -302,7 +345,7 @@ bool RasterRenderer::ground_hides(const Camera& camera) const {
 
 /// What is seen of meshes and visible lights, unlit, in every sample.
 void RasterRenderer::draw_seen(bool behind_ground) const {
-  const Programs& programs = gl_->programs;
+  const Programs& programs = *gl_->programs;
   gl_->targets->bind_seen();
   glEnable(GL_DEPTH_TEST);
   gl_->targets->clear_seen();
@@ -312,7 +355,7 @@ void RasterRenderer::draw_seen(bool behind_ground) const {
     draw_ground_cells(programs.ground_cover, false);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
-  draw_meshes(gl_->seen().mesh);
+  draw_meshes(gl_->seen().mesh, Which::opaque);
   const Program& light = gl_->seen().light;
   light.use();
   glEnable(GL_CULL_FACE);
@@ -327,7 +370,7 @@ void RasterRenderer::draw_seen(bool behind_ground) const {
 
 /// The background and the ground over it.
 void RasterRenderer::draw_background() const {
-  const Programs& programs = gl_->programs;
+  const Programs& programs = *gl_->programs;
   gl_->targets->bind_color();
   glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_TEST);
@@ -343,23 +386,20 @@ void RasterRenderer::draw_background() const {
   glDisable(GL_BLEND);
 }
 
-/// What is seen over the background, lit once a pixel and surface: layers add up, the first covers for all.
-void RasterRenderer::draw_layers() const {
-  const Programs& programs = gl_->programs;
-  gl_->targets->bind_color();
-  gl_->targets->bind_seen_textures();
+/// The bound samples that are seen, lit once a pixel and surface, into the bound picture: layers add up, the
+/// first covers for all.
+void RasterRenderer::draw_layers(const Program& count, const Program& layer) const {
   glDisable(GL_CULL_FACE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  programs.count.use();
+  count.use();
   draw_full_screen();
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  const Program& layer = gl_->seen().layer;
+  glBlendFunc(GL_ONE, &layer == &gl_->seen().layer ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
   layer.use();
   for (int i = 0; i < raster_.multisample; ++i) {
     glUniform1i(layer.location("layer"), i);
@@ -369,9 +409,47 @@ void RasterRenderer::draw_layers() const {
   glDisable(GL_BLEND);
 }
 
+/// What is not opaque: surface behind surface as far as there are any, each by what those before it let
+/// through. So the order in which they are drawn does not matter.
+void RasterRenderer::draw_see_through() const {
+  Targets& targets = *gl_->targets;
+  const PeelPrograms& programs = *gl_->peel;
+  targets.need_peels();
+  targets.bind_peeled_color();
+  constexpr std::array<float, 4> nothing = {};
+  glDisable(GL_SCISSOR_TEST);
+  glClearBufferfv(GL_COLOR, 0, nothing.data());
+  glEnable(GL_SCISSOR_TEST);
+  const Query query;
+  for (int peel = 0; peel < most_peels; ++peel) {
+    targets.begin_peel(peel % 2);
+    glEnable(GL_DEPTH_TEST);
+    programs.mesh.use();
+    glUniform1i(programs.mesh.location("is_first"), peel == 0 ? 1 : 0);
+    glBeginQuery(GL_ANY_SAMPLES_PASSED, query.id());
+    draw_meshes(programs.mesh, Which::see_through);
+    glEndQuery(GL_ANY_SAMPLES_PASSED);
+    GLuint any = 0;
+    glGetQueryObjectuiv(query.id(), GL_QUERY_RESULT, &any);
+    if (any == 0) break;
+    targets.bind_peeled_textures(peel % 2);
+    targets.bind_peeled_color();
+    draw_layers(programs.count, programs.layer);
+  }
+  targets.bind_color();
+  targets.bind_peeled_color_texture();
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  programs.composite.use();
+  draw_full_screen();
+  glDisable(GL_BLEND);
+}
+
 /// One sample a pixel, so that a depth is that of the surface at the pixel's centre.
 void RasterRenderer::draw_depth() const {
-  const Programs& programs = gl_->programs;
+  const Programs& programs = *gl_->programs;
   gl_->targets->bind_depth();
   glEnable(GL_DEPTH_TEST);
   const std::array<float, 4> nothing = {std::numeric_limits<float>::infinity(), 0.0F, 0.0F, 0.0F};
@@ -397,8 +475,8 @@ void RasterRenderer::draw_body_ids(Image& image) {
   glClear(GL_DEPTH_BUFFER_BIT);
   if (scene_.ground.enabled) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    draw_ground_cells(gl_->programs.ground_depth, true);
-    draw_ground_cells(gl_->programs.ground_depth, false);
+    draw_ground_cells(gl_->programs->ground_depth, true);
+    draw_ground_cells(gl_->programs->ground_depth, false);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
   draw_meshes(*gl_->mesh_number);
@@ -412,13 +490,15 @@ void RasterRenderer::draw_body_ids(Image& image) {
 void RasterRenderer::draw_alpha(Image& image) {
   if (!gl_->alpha) {
     using Parts = std::initializer_list<const char*>;
-    const std::string samples = "#define SAMPLES " + std::to_string(raster_.multisample) + "\n";
+    const std::string samples = "#define SAMPLES " + std::to_string(raster_.multisample) + "\n" +
+                                (gl_->features.see_through ? "#define PEEL\n" : "");
     gl_->alpha.emplace(
         "alpha", Parts{shaders::full_screen_vertex},
         Parts{samples.c_str(), shaders::frame, shaders::ground_point, shaders::alpha_fragment});
   }
   gl_->targets->bind_depth();
   gl_->targets->bind_seen_textures();
+  if (gl_->features.see_through) gl_->targets->bind_peeled_color_texture();
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   gl_->alpha->use();

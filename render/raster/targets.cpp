@@ -38,20 +38,26 @@ void Targets::attach_samples(const Texture& texture, GLenum format, GLenum attac
   glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, sampled(), texture.id(), 0);
 }
 
-Targets::Targets(int width, int height, int samples, bool colors)
-    : width_(width), height_(height), samples_(samples) {
-  bind_seen();
-  attach_samples(seen_, GL_RGBA32UI, GL_COLOR_ATTACHMENT0);
-  if (colors) {
-    attach_samples(colors_.emplace(), GL_RGBA16F, GL_COLOR_ATTACHMENT1);
+/// What a target of seen samples has, and their colours where they are wanted.
+void Targets::attach_seen(const Texture& seen, const Texture* colors, const Renderbuffer& depth) const {
+  attach_samples(seen, GL_RGBA32UI, GL_COLOR_ATTACHMENT0);
+  if (colors != nullptr) {
+    attach_samples(*colors, GL_RGBA16F, GL_COLOR_ATTACHMENT1);
     constexpr std::array<GLenum, 2> both = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     glDrawBuffers(2, both.data());
   }
-  glBindRenderbuffer(GL_RENDERBUFFER, seen_depth_.id());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples > 1 ? samples : 0, GL_DEPTH_COMPONENT32F, width,
-                                   height);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, seen_depth_.id());
+  glBindRenderbuffer(GL_RENDERBUFFER, depth.id());
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_ > 1 ? samples_ : 0, GL_DEPTH_COMPONENT32F,
+                                   width_, height_);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth.id());
   check_framebuffer("samples");
+}
+
+Targets::Targets(int width, int height, int samples, bool colors)
+    : width_(width), height_(height), samples_(samples) {
+  bind_seen();
+  if (colors) colors_.emplace();
+  attach_seen(seen_, colors ? &*colors_ : nullptr, seen_depth_);
 
   bind_color();
   glBindTexture(GL_TEXTURE_2D, color_.id());
@@ -77,6 +83,49 @@ void Targets::bind_seen_textures() const {
   if (!colors_) return;
   glActiveTexture(GL_TEXTURE12);
   glBindTexture(sampled(), colors_->id());
+}
+
+void Targets::need_peels() {
+  if (peels_) return;
+  peels_.emplace();
+  for (Peel& peel : peels_->of) {
+    if (colors_) peel.colors.emplace();
+    bind(peel.target, width_, height_);
+    attach_seen(peel.seen, peel.colors ? &*peel.colors : nullptr, peels_->depth);
+  }
+  bind(peels_->color_target, width_, height_);
+  glBindTexture(GL_TEXTURE_2D, peels_->color.id());
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32F, width_, height_);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, peels_->color.id(), 0);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
+  check_framebuffer("peeled surfaces");
+}
+
+void Targets::begin_peel(int number) const {
+  const Framebuffer& target = peels_->of[static_cast<std::size_t>(number)].target;
+  bind(target, width_, height_);
+  clear_seen();
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, seen_target_.id());
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  bind(target, width_, height_);
+  glActiveTexture(GL_TEXTURE13);
+  glBindTexture(sampled(), peels_->of[static_cast<std::size_t>(1 - number)].seen.id());
+}
+
+void Targets::bind_peeled_textures(int number) const {
+  const Peel& peel = peels_->of[static_cast<std::size_t>(number)];
+  glActiveTexture(GL_TEXTURE6);
+  glBindTexture(sampled(), peel.seen.id());
+  if (!peel.colors) return;
+  glActiveTexture(GL_TEXTURE12);
+  glBindTexture(sampled(), peel.colors->id());
+}
+
+void Targets::bind_peeled_color() const { bind(peels_->color_target, width_, height_); }
+
+void Targets::bind_peeled_color_texture() const {
+  glActiveTexture(GL_TEXTURE13);
+  glBindTexture(GL_TEXTURE_2D, peels_->color.id());
 }
 
 void Targets::bind_depth() {

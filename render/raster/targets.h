@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,16 @@ public:
   /// Binds a channel of one value a pixel, with the picture's depth buffer.
   void bind_depth();
 
+  /// Room for the surfaces that are not opaque, made when it is asked for.
+  void need_peels();
+  /// Binds one of two targets like that of what is seen, empty, with the depths of what is seen. Its textures
+  /// are those that the shaders read of bind_peeled_textures(), the other's are those of the pass before.
+  void begin_peel(int number) const;
+  void bind_peeled_textures(int number) const;
+  /// Binds what they send together, or makes it the texture that the shaders read.
+  void bind_peeled_color() const;
+  void bind_peeled_color_texture() const;
+
   /// The picture into the channel "color", rows from the top.
   void read_color(Image&);
   /// The channel of one value a pixel, likewise.
@@ -38,12 +49,26 @@ public:
 private:
   GLenum sampled() const { return samples_ > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D; }
   void attach_samples(const Texture&, GLenum format, GLenum attachment) const;
+  void attach_seen(const Texture& seen, const Texture* colors, const Renderbuffer& depth) const;
+
+  struct Peel {
+    Texture seen;
+    std::optional<Texture> colors;
+    Framebuffer target;
+  };
+  struct Peels {
+    std::array<Peel, 2> of;
+    Renderbuffer depth;
+    Texture color;
+    Framebuffer color_target;
+  };
 
   int width_, height_, samples_;
   Texture seen_, color_, depth_channel_;
   std::optional<Texture> colors_;
   Renderbuffer seen_depth_, depth_;
   Framebuffer seen_target_, color_target_, depth_target_;
+  std::optional<Peels> peels_;
   bool has_depth_channel_ = false;
   std::vector<float> pixels_;
 };

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,38 +14,13 @@
 #include "render/png.h"
 #include "render/png_read.h"
 #include "render/renderer.h"
+#include "tests/bench/drawing.h"
 #include "tests/bench/scene.h"
 
 /// A frame from the positions of its vertices to the bytes of its file, at the main job's settings, and the
 /// comparison of two pictures.
 namespace lagomorph::bench {
 namespace {
-
-constexpr int threads = 2;
-
-struct Drawing {
-  explicit Drawing(const std::string& backend, int samples, int width = 1280, int height = 720)
-      : s(swing("5k")) {
-    render::RenderSettings settings = s.scene.render;
-    settings.backend = backend;
-    settings.samples = samples;
-    settings.width = width;
-    settings.height = height;
-    camera = std::make_unique<render::Camera>(s.scene.camera, width, height);
-    surfaces = apps::build_surfaces(s.scene, s.model, s.progress);
-    renderer = render::make_renderer(settings, threads);
-    renderer->set_scene(apps::build_render_scene(s.scene, s.model, surfaces));
-  }
-  render::Image draw() {
-    apps::move_meshes(*renderer, surfaces, s.state.q);
-    return renderer->render(*camera, {});
-  }
-
-  Swing& s;
-  std::unique_ptr<render::Camera> camera;
-  std::vector<sim::Surface> surfaces;
-  std::unique_ptr<render::Renderer> renderer;
-};
 
 void raster_frame(benchmark::State& timing) {
   Drawing drawing("raster", 1);

@@ -59,6 +59,9 @@ layout(binding = 6) uniform usampler2DMS seen_samples;
 #else
 layout(binding = 6) uniform usampler2D seen_samples;
 #endif
+#ifdef PEEL
+layout(binding = 13) uniform sampler2D peeled;
+#endif
 out float alpha;
 void main() {
   float covered = 0.0;
@@ -68,6 +71,9 @@ void main() {
   float depth;
   float floor_part = ground.w > 0.5 && meet_ground(x, depth) ? 1.0 - ground_fade(x) : 0.0;
   alpha = covered + (1.0 - covered) * floor_part;
+#ifdef PEEL
+  alpha += (1.0 - alpha) * texelFetch(peeled, ivec2(gl_FragCoord.xy), 0).w;
+#endif
 }
 )";
 

@@ -14,7 +14,7 @@ struct SkyDirection {
 };
 struct Surface {
   vec4 color;   // base colour, or radiance of a light; w 1 for a light
-  vec4 finish;  // roughness, metallic, the dielectric's f0
+  vec4 finish;  // roughness, metallic, the dielectric's f0, opacity
 };
 layout(std140, binding = 0) uniform Frame {
   mat4 clip_from_world;
@@ -23,6 +23,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 ground, ground_at, ground_texture, texture_color, ground_map, shadowed_ground;
   vec4 sky_map;
   vec4 counts;
+  vec4 sky_picture;
   Light lights[4];
   SkyDirection sky_directions[16];
 };
@@ -41,6 +42,13 @@ void pixel_ray(out vec3 origin, out vec3 direction) {
 
 // Unit vector from a point to the camera.
 vec3 towards_eye(vec3 x) { return eye.w > 0.5 ? -forward.xyz : normalize(eye.xyz - x); }
+
+// The mirrored view, of a normal that is bent as little as needed for v to be above the surface.
+vec3 mirrored_view(vec3 v, vec3 n) {
+  const float least = 1e-3;
+  float cosine = dot(n, v);
+  return reflect(-v, cosine < least ? normalize(n + (least - cosine) * v) : n);
+}
 
 // Number of this pixel in its 2x2 quad, 0..3.
 float quad_index() {

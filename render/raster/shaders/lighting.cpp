@@ -108,6 +108,12 @@ layout(binding = 0) uniform sampler2DArray shadow_maps;
 // Point k of n of a Fibonacci lattice on [-1, 1]^2.
 vec2 lattice(float k, float n) { return 2.0 * vec2((k + 0.5) / n, fract(0.5 + 0.6180339887 * k)) - 1.0; }
 
+#ifdef SEE_THROUGH
+const float least_reach = 4.0;  // texels: over so many the dots of see_through_depth_map_fragment even out
+#else
+const float least_reach = 1.0;
+#endif
+
 struct Receiver {
   vec3 normal;       // in the light's frame
   vec2 tangent;
@@ -115,6 +121,7 @@ struct Receiver {
   float plane;       // distance of the plane that blockers are above from the light
 };
 
+#ifndef SEE_THROUGH
 // 1 / distance of what blocks the light through a point of the map, or 0.
 float blocker(int i, Light light, Receiver at, vec2 tangent, float size) {
   vec2 texel = clamp(floor((tangent * light.map.xy + light.map.zw) * size), 0.0, size - 1.0);
@@ -124,6 +131,26 @@ float blocker(int i, Light light, Receiver at, vec2 tangent, float size) {
   bool blocks = d < 1.0 && reciprocal > at.reciprocal &&
                 dot(at.normal, vec3(centre, 1.0)) > at.plane * reciprocal;
   return blocks ? reciprocal : 0.0;
+}
+#endif
+
+// The sum of 1 / distance over what blocks the light through a point of the map, and how much does.
+vec2 blockers(int i, Light light, Receiver at, vec2 tangent, float size) {
+#ifdef SEE_THROUGH
+  // Four texels, for some only have dots.
+  vec2 corner = floor((tangent * light.map.xy + light.map.zw) * size - 0.5);
+  vec4 d = textureGather(shadow_maps, vec3((corner + 1.0) / size, float(i)));
+  vec4 reciprocal = d * light.depth.x + light.depth.y;
+  vec4 x = ((corner.x + vec4(0.5, 1.5, 1.5, 0.5)) / size - light.map.z) / light.map.x;
+  vec4 y = ((corner.y + vec4(1.5, 1.5, 0.5, 0.5)) / size - light.map.w) / light.map.y;
+  vec4 above = at.normal.x * x + at.normal.y * y + at.normal.z - at.plane * reciprocal;
+  vec4 blocks = vec4(lessThan(d, vec4(1.0))) * vec4(greaterThan(reciprocal, vec4(at.reciprocal))) *
+                vec4(greaterThan(above, vec4(0.0)));
+  return 0.25 * vec2(dot(blocks, reciprocal), dot(blocks, vec4(1.0)));
+#else
+  float b = blocker(i, light, at, tangent, size);
+  return vec2(b, b > 0.0 ? 1.0 : 0.0);
+#endif
 }
 
 // Part of a light's rectangle that is seen from x on a plane with normal n. The pixels of a quad share their samples
@@ -139,7 +166,7 @@ float light_visibility(int i, vec3 x, vec3 n, float depth, float footprint) {
   at.tangent = q.xy * at.reciprocal;
   at.plane = dot(at.normal, q) + light.depth.w + 2.0 * footprint;
   vec2 half_size = vec2(light.right.w, light.up.w);
-  vec2 texel = 1.0 / (size * light.map.xy);
+  vec2 texel = least_reach / (size * light.map.xy);
   float first = quad_index();  // the quad's pixels take every fourth point each
 
   vec2 reach = half_size * max(light.depth.z - at.reciprocal, 0.0) + texel;
@@ -153,9 +180,9 @@ float light_visibility(int i, vec3 x, vec3 n, float depth, float footprint) {
   float sum = 0.0;
   for (int k = 0; k < taps; ++k) {
     vec2 s = lattice(4.0 * float(k) + first, 4.0 * float(search_taps));
-    float b = blocker(i, light, at, at.tangent + s * reach, size);
-    count += b > 0.0 ? 1.0 : 0.0;
-    sum += b;
+    vec2 b = blockers(i, light, at, at.tangent + s * reach, size);
+    count += b.y;
+    sum += b.x;
   }
   float tolerance = 10.0 * footprint;
   vec2 found = quad_sum(vec2(sum, count), depth, tolerance);
@@ -164,7 +191,7 @@ float light_visibility(int i, vec3 x, vec3 n, float depth, float footprint) {
   float blocked = 0.0;
   for (int k = 0; k < taps; ++k) {
     vec2 s = lattice(4.0 * float(k) + first, 4.0 * counts.y);
-    blocked += blocker(i, light, at, at.tangent + s * spread, size) > 0.0 ? 1.0 : 0.0;
+    blocked += blockers(i, light, at, at.tangent + s * spread, size).y;
   }
   // Where the penumbra is hardly wider than a pixel, the quad's mean would only make blocks.
   vec2 shared_blocked = quad_sum(vec2(blocked, counts.y), depth, tolerance);

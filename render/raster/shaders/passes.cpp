@@ -10,19 +10,24 @@ void main() {
 )";
 
 const char* const mesh_vertex = R"(
+#ifdef PEEL
+#define VARYING sample out
+#else
+#define VARYING out
+#endif
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 #ifdef COLORS
 layout(location = 2) in vec3 color;
-out vec3 vertex_color;
+VARYING vec3 vertex_color;
 #endif
 #ifdef MOTION
 layout(location = 3) in vec3 previous;
 uniform bool moves;
 out vec3 before;  // where the point was at the frame before
 #endif
-out vec3 world;
-out vec3 smooth_normal;
+VARYING vec3 world;
+VARYING vec3 smooth_normal;
 void main() {
   world = position;
   smooth_normal = normal;
@@ -81,16 +86,32 @@ void main() {
 // What is seen in each sample: depth, the two normals, and 1 + the number of the surface; with COLORS the
 // vertices' colour where they have one, w 1. Triangles are small and their pixels many, so that nothing is
 // lit here.
+//
+// With PEEL: of the surfaces that are not opaque, the next one behind that of the pass before, in each sample
+// for itself [Everitt 2001]. The upper half of the last value is then what those before it let through.
 const char* const seen_fragment = R"(
+#ifdef PEEL
+#if SAMPLES > 1
+layout(binding = 13) uniform usampler2DMS peeled_samples;  // of the pass before
+#define SAMPLE gl_SampleID
+#else
+layout(binding = 13) uniform usampler2D peeled_samples;
+#define SAMPLE 0
+#endif
+uniform bool is_first;
+#define VARYING sample in
+#else
+#define VARYING in
+#endif
 #ifndef EMITTER
-in vec3 smooth_normal;
+VARYING vec3 smooth_normal;
 uniform bool is_smooth;
 #endif
-in vec3 world;
+VARYING vec3 world;
 uniform uint surface;
 #ifdef COLORS
 #ifndef EMITTER
-in vec3 vertex_color;
+VARYING vec3 vertex_color;
 uniform bool is_colored;
 #endif
 layout(location = 1) out vec4 tint;
@@ -110,7 +131,21 @@ void main() {
 #ifndef EMITTER
   if (is_smooth) n = normalize(gl_FrontFacing ? smooth_normal : -smooth_normal);
 #endif
-  texel = uvec4(floatBitsToUint(dot(world - eye.xyz, forward.xyz)), octahedral(n), octahedral(flat_normal), surface + 1u);
+  float depth = dot(world - eye.xyz, forward.xyz);
+  uint id = surface + 1u;
+#ifdef PEEL
+  float passed = 1.0;
+  if (!is_first) {
+    uvec4 before = texelFetch(peeled_samples, ivec2(gl_FragCoord.xy), SAMPLE);
+    if (before.w == 0u || depth <= uintBitsToFloat(before.x)) discard;
+    passed = unpackUnorm2x16(before.w).y * (1.0 - surfaces[(before.w & 0xffffu) - 1u].finish.w);
+    if (passed < 1.0 / 4096.0) discard;
+  }
+  id |= packUnorm2x16(vec2(0.0, passed));
+  vec4 clip = clip_from_world * vec4(world, 1.0);
+  gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;  // in the order of `depth`
+#endif
+  texel = uvec4(floatBitsToUint(depth), octahedral(n), octahedral(flat_normal), id);
 #ifdef COLORS
   tint = vec4(0.0);
 #ifndef EMITTER
@@ -148,6 +183,9 @@ struct Sample {
   float depth;
   vec4 normals;  // both, on the octahedron
   uint id;       // 1 + the surface's number, 0: nothing is seen
+#ifdef PEEL
+  float weight;  // what the surfaces before it let through, times its opacity
+#endif
 };
 struct Layers {
   Sample samples[SAMPLES];
@@ -167,8 +205,14 @@ Layers sort_samples() {
   l.count = 0;
   for (int s = 0; s < SAMPLES; ++s) {
     uvec4 texel = texelFetch(seen_samples, ivec2(gl_FragCoord.xy), s);
+#ifdef PEEL
+    uint id = texel.w & 0xffffu;
+    float weight = id != 0u ? unpackUnorm2x16(texel.w).y * surfaces[id - 1u].finish.w : 0.0;
+    l.samples[s] = Sample(uintBitsToFloat(texel.x), vec4(unpackSnorm2x16(texel.y), unpackSnorm2x16(texel.z)), id, weight);
+#else
     l.samples[s] = Sample(uintBitsToFloat(texel.x), vec4(unpackSnorm2x16(texel.y), unpackSnorm2x16(texel.z)),
                           texel.w);
+#endif
     l.layer[s] = -1;
     for (int r = 0; r < s; ++r) {
       if (l.layer[s] < 0 && same_surface(l.samples[r], l.samples[s])) l.layer[s] = l.layer[r];
@@ -205,6 +249,10 @@ void main() {
   float count = 0.0;
   float before_ground = 0.0;  // of this layer's samples
   float covered = 0.0;        // of all layers' before the ground
+#ifdef PEEL
+  float weight_before = 0.0;  // of this layer's samples before and behind the ground
+  float weight_behind = 0.0;
+#endif
   float depth = 0.0;
   vec4 normals = vec4(0.0);
   uint id = 1u;
@@ -217,6 +265,10 @@ void main() {
     if (l.layer[s] != layer) continue;
     count += 1.0;
     before_ground += before;
+#ifdef PEEL
+    weight_before += before * l.samples[s].weight;
+    weight_behind += (1.0 - before) * l.samples[s].weight;
+#endif
     depth += l.samples[s].depth;
     normals += l.samples[s].normals;
     id = l.samples[s].id;
@@ -238,7 +290,15 @@ void main() {
 #ifdef COLORS
   if (tint.w > 0.0) surface.color.rgb = tint.rgb / tint.w;
 #endif
-  vec3 lit = shade(p, v, surface, sky_seen(p.x, p.normal), radiance_from_below(p.x));
+  SkySeen sky = sky_seen(p.x, p.normal, mirrored_view(v, p.normal), surface.finish.x);
+  vec3 lit = shade(p, v, surface, sky, radiance_from_below(p.x));
+#ifdef PEEL
+  color = vec4(weight_before * lit, weight_before);
+  if (weight_behind > 0.0)
+    color.rgb += weight_behind * ground_fade(on_ground) * (lit - background_radiance(direction));
+  color /= float(SAMPLES);
+  return;
+#endif
   if (surface.color.w > 0.5) lit = surface.color.rgb;
   color.rgb = before_ground * lit;
   if (before_ground < count)
@@ -309,12 +369,17 @@ void main() {
   p.depth = 0.0;  // all pixels here see the same plane
   vec2 at = ground_map_at(p.x);
   vec3 seen = vec3(1.0);
-  if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)))) seen = texture(ground_ambient, at).rgb;
+  if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)))) seen = ground_seen(at);
   Surface surface = surfaces[0];
   // As wide as the path tracer's filter: a box of the same variance.
   vec2 over_x = dFdx(p.x.xz), over_y = dFdy(p.x.xz);
   surface.color.rgb = ground_color_at(p.x, 1.35 * sqrt(over_x * over_x + over_y * over_y));
-  color = vec4(shade(p, v, surface, seen, horizon.rgb), met ? 1.0 - ground_fade(p.x) : 0.0);
+#ifdef SKY_MAP
+  vec4 below = vec4(p.normal.y > 0.0 ? open_sky(p.normal) / PI : open_below(p.normal), 1.0);
+#else
+  vec4 below = vec4(horizon.rgb, 1.0);
+#endif
+  color = vec4(shade(p, v, surface, SkySeen(seen, seen), below), met ? 1.0 - ground_fade(p.x) : 0.0);
 }
 )";
 
@@ -351,6 +416,30 @@ void main() {
 
 const char* const depth_map_fragment = R"(
 void main() {}
+)";
+
+// Dots as dense as the surface is opaque [Fuchs et al. 1985; Enderton et al. 2010], which the filters of the
+// shadows even out: a plane of points over the texels, another one for each sheet of each body, so that one
+// behind the other they hide as if independent. The rows are of the generalized golden ratio [Roberts 2018]
+// and its like.
+const char* const see_through_depth_map_fragment = R"(
+uniform float opacity;
+uniform int body;
+void main() {
+  int sheet = 2 * body + (gl_FrontFacing ? 0 : 1);
+  const vec2 steps[4] = vec2[4](vec2(0.7548776662, 0.5698402910), vec2(0.4301597090, 0.7548776662),
+                                vec2(0.3819660113, 0.2360679775), vec2(0.1458980338, 0.6180339887));
+  vec2 s = steps[sheet % 4];
+  float shift = 0.6180339887 * float(sheet / 4);
+  if (fract(dot(floor(gl_FragCoord.xy), s) + shift) >= opacity) discard;
+}
+)";
+
+// What the peeled surfaces send, over the picture.
+const char* const composite_fragment = R"(
+layout(binding = 13) uniform sampler2D peeled;
+out vec4 color;
+void main() { color = texelFetch(peeled, ivec2(gl_FragCoord.xy), 0); }
 )";
 
 const char* const mesh_depth_fragment = R"(

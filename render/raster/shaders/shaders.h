@@ -28,6 +28,8 @@ extern const char* const ground_fragment;
 extern const char* const ground_cover_fragment;
 extern const char* const ground_map_fragment;
 extern const char* const depth_map_fragment;
+extern const char* const see_through_depth_map_fragment;
+extern const char* const composite_fragment;
 extern const char* const mesh_depth_fragment;
 extern const char* const mesh_number_fragment;
 extern const char* const ground_depth_fragment;

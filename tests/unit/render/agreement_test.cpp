@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -254,10 +256,10 @@ RenderScene matte_scene() {
 }
 
 /// Mean of |raster - path| over the mean of the path tracer's light, and the same of the difference.
-std::array<double, 2> light_apart(const RenderScene& scene) {
+std::array<double, 2> light_apart(const RenderScene& scene, int bounces = 0) {
   const CameraSettings camera = camera_of_test(false);
   const Image raster = draw("raster", scene, camera, {}, false),
-              path = draw("path", scene, camera, {}, false, 256);
+              path = draw("path", scene, camera, {}, false, 256, bounces);
   const std::vector<float>&a = raster.find(color_channel)->values, &b = path.find(color_channel)->values;
   double sum = 0.0, bias = 0.0, light = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -283,6 +285,82 @@ TEST(BackEndsAgree, OnDirectLightOfASun) {
   const auto [apart, bias] = light_apart(scene);
   EXPECT_LT(apart, 0.004);
   EXPECT_LT(std::abs(bias), 0.001);
+}
+
+/// Dim blue above, brown below, and a bright patch of 40 x 30 degrees at one side, which the rotation turns.
+Sky one_sided_sky(float rotation) {
+  constexpr int columns = 128, rows = 64;
+  std::vector<Color> texels;
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      const bool patch = std::abs(x - 96) < 7 && std::abs(y - 20) < 5;
+      texels.push_back(patch          ? Color(16.0F, 13.0F, 9.0F)
+                       : y < rows / 2 ? Color(0.25F, 0.35F, 0.6F)
+                                      : Color(0.3F, 0.2F, 0.1F));
+    }
+  }
+  Sky sky;
+  sky.strength = 1.0F;
+  sky.map = std::make_shared<const SkyMap>(columns, rows, std::move(texels), rotation);
+  return sky;
+}
+
+/// A sphere under that sky.
+RenderScene sphere_under_sky(float metallic, float roughness) {
+  RenderScene scene;
+  scene.ground.enabled = false;
+  scene.sky = one_sided_sky(0.0F);
+  scene.meshes = {make_sphere(4, 0.6F, Vec3(0, 0.4F, 0))};
+  scene.meshes[0].material = {Color(0.7F, 0.6F, 0.5F), roughness, metallic, metallic > 0.0F ? 1.5F : 1.0F};
+  return scene;
+}
+
+TEST(BackEndsAgree, OnTheLightOfASkyMap) {
+  // The background, which is the map itself, counts as well.
+  const auto [matte, matte_bias] = light_apart(sphere_under_sky(0.0F, 1.0F));
+  EXPECT_LT(matte, 0.006);
+  EXPECT_LT(std::abs(matte_bias), 0.001);
+  const auto [satin, satin_bias] = light_apart(sphere_under_sky(1.0F, 0.5F));
+  EXPECT_LT(satin, 0.04);
+  EXPECT_LT(std::abs(satin_bias), 0.03);
+  const auto [mirror, mirror_bias] = light_apart(sphere_under_sky(1.0F, 0.15F));
+  EXPECT_LT(mirror, 0.035);
+  EXPECT_LT(std::abs(mirror_bias), 0.005);
+}
+
+TEST(BackEndsAgree, OnTheShadowOfASkyMapsBrightPatch) {
+  RenderScene scene = sphere_under_sky(0.0F, 1.0F);
+  scene.ground.enabled = true;
+  scene.ground.height = -0.3F;
+  scene.ground.material = scene.meshes[0].material;
+  const auto [apart, bias] = light_apart(scene, 4);
+  EXPECT_LT(apart, 0.06);
+  EXPECT_LT(std::abs(bias), 0.025);
+}
+
+TEST(RasterSkyMap, TurnsWithItsRotation) {
+  RenderScene scene = sphere_under_sky(0.5F, 0.4F);
+  scene.meshes[0] = make_sphere(5, 0.6F, Vec3::Zero());
+  const auto seen_from = [&](float azimuth, float rotation) {
+    scene.sky = one_sided_sky(rotation);
+    CameraSettings camera;
+    const float a = azimuth * std::numbers::pi_v<float> / 180.0F;
+    camera.position = Vec3(-3.0F * std::sin(a), 0.5F, 3.0F * std::cos(a));  // it looks to that azimuth
+    camera.look_at = Vec3::Zero();
+    return draw("raster", scene, camera, {}, false).find(color_channel)->values;
+  };
+  const auto difference = [](const std::vector<float>& a, const std::vector<float>& b) {
+    double sum = 0.0, light = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      sum += std::abs(static_cast<double>(a[i] - b[i]));
+      light += static_cast<double>(a[i]);
+    }
+    return sum / light;
+  };
+  const std::vector<float> before = seen_from(0.0F, 0.0F);
+  EXPECT_LT(difference(before, seen_from(90.0F, 90.0F)), 0.005);
+  EXPECT_LT(difference(before, seen_from(37.0F, 37.0F)), 0.02);  // aslant to the cube's faces
+  EXPECT_GT(difference(before, seen_from(0.0F, 180.0F)), 0.2);
 }
 
 }  // namespace agreement_test

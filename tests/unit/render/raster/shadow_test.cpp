@@ -155,5 +155,32 @@ TEST(RasterShadow, TheSkyIsDimmedUnderABody) {
   }
 }
 
+/// Of a bar over the ground: no pattern of the points along which it is looked for.
+TEST(RasterShadow, TheSkysIsSmoothOnTheGround) {
+  RenderScene scene = empty_scene();
+  scene.ground.enabled = true;
+  scene.ground.radius = 20.0F;
+  scene.ground.fade_start = 15.0F;
+  scene.sky = Sky{};
+  scene.sky.strength = 1.0F;
+  scene.meshes = {box(Vec3(-0.5F, 0.4F, -0.1F), Vec3(0.5F, 0.6F, 0.1F))};
+  CameraSettings camera;
+  camera.position = Vec3(0.0F, 0.3F, 2.0F);
+  camera.look_at = Vec3(0.0F, -0.1F, 0.0F);
+  const RenderSettings settings = small_settings(240, 160);
+  const Image image = draw(scene, camera, settings);
+  double bend = 0.0, light = 0.0;
+  for (int y = settings.height / 2; y < settings.height - 2; ++y) {
+    for (int x = 2; x < settings.width - 2; ++x) {
+      const Color c = color_at(image, x, y);
+      const Color around = 0.25F * (color_at(image, x - 2, y) + color_at(image, x + 2, y) +
+                                    color_at(image, x, y - 2) + color_at(image, x, y + 2));
+      bend += static_cast<double>((c - around).abs().sum());
+      light += static_cast<double>(c.sum());
+    }
+  }
+  EXPECT_LT(bend / light, 5e-4);  // 1e-3 with the points of single texels
+}
+
 }  // namespace shadow_test
 }  // namespace lagomorph::render::raster
