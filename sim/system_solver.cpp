@@ -9,7 +9,7 @@ namespace {
 
 // Weights of the work, in nanoseconds on the machine that they were taken on (AMD EPYC, OpenBLAS's AVX-512
 // kernel): only their ratios matter.
-constexpr double kPerBlock = 2.8;           // of a product and the vectors of an iteration
+constexpr double kPerBlock = 1.7;           // of a product and the vectors of an iteration
 constexpr double kPerFlop = 0.03;           // of a factorization
 constexpr double kPerNonzero = 10.0;        // of a factorization, besides its operations
 constexpr double kPerNonzeroOfSolve = 1.6;  // of forward and backward substitution
