@@ -18,8 +18,8 @@ constexpr double kPerNonzeroOfSolve = 1.6;  // of forward and backward substitut
 double expected_flops(double n) { return 50.0 * n * n; }
 double expected_nonzeros(double n) { return 30.0 * std::pow(n, 4.0 / 3.0); }
 
-constexpr int kProbe = 32;                  // iterations after which CG asks itself whether it pays
-constexpr double kFewestIterations = 60.0;  // that a factorization must cost for CG to be tried at all
+constexpr int kProbe = 32;                   // iterations after which CG asks itself whether it pays
+constexpr double kFewestIterations = 100.0;  // that a factorization must cost for CG to be tried at all
 constexpr int kMostIterations = 20000;
 
 /// H preconditioned by a factor of another matrix.
@@ -65,7 +65,6 @@ void SystemSolver::begin(bool may_be_singular) {
   const bool pays = cg_budget() >= kFewestIterations && !may_be_singular;
   way_ = may_iterate_ && (pays || !may_factorize_) ? Way::cg : Way::factor;
   keeps_factor_ = !may_be_singular;
-  cg_spent_ = 0;
   has_factor_ = false;
 }
 
@@ -84,13 +83,11 @@ FactorStatus SystemSolver::solve(const BlockHessian& H, const VecX& b, double to
   if (!cg_.set_matrix(H)) return FactorStatus::not_positive_definite;
   CgLimits limits{tolerance, kMostIterations};
   if (may_factorize_) {
-    limits.max_iterations =
-        std::max(static_cast<int>(std::min<double>(cg_budget(), kMostIterations) - cg_spent_), 1);
+    limits.max_iterations = static_cast<int>(std::min<double>(cg_budget(), kMostIterations));
     limits.probe = kProbe;
     limits.goal = goal;
   }
   const CgReport report = cg_.solve(b, limits, x);
-  cg_spent_ += report.iterations;
   counts_.cg_iterations += report.iterations;
   if (report.status == CgStatus::negative_curvature) return FactorStatus::not_positive_definite;
   if (report.status == CgStatus::converged || !may_factorize_) return FactorStatus::ok;

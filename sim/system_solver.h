@@ -24,10 +24,9 @@ struct SolveCounts {
 /// - "cholmod": a Cholesky factorization of a minimization's first matrix; of those after it only when
 /// conjugate
 ///   gradients preconditioned by that factor would cost more.
-/// - "auto": conjugate gradients while the work that they take, by counted blocks, is less than what a
-/// factorization
-///   would, by an estimate of its nonzeros and operations; then the factor. No clock is asked: the way is a
-///   function of the matrices, and so the same on a busy machine.
+/// - "auto": conjugate gradients while what they still ask for, by counted blocks, is less work than a
+///   factorization, by an estimate of its nonzeros and operations; then the factor. No clock is asked: the
+///   way is a function of the matrices, and so the same on a busy machine.
 ///
 /// Nothing is carried from one minimization to the next, so that a run that is taken up again goes the same
 /// way.
@@ -58,7 +57,6 @@ private:
   bool factor_is_analyzed_ = false;
   // Of this minimization:
   Way way_ = Way::cg;
-  std::int64_t cg_spent_ = 0;  // iterations
   bool has_factor_ = false, keeps_factor_ = true;
   SolveCounts counts_;
 };
