@@ -31,7 +31,8 @@ inline BlockHessian random_system(const std::shared_ptr<const BlockPattern>& pat
   return H;
 }
 
-/// The graph's Laplacian in each coordinate, and `shift` times the identity: smooth vectors are hardly resisted.
+/// The graph's Laplacian in each coordinate, and `shift` times the identity: smooth vectors are hardly
+/// resisted.
 inline BlockHessian laplacian_system(const std::shared_ptr<const BlockPattern>& pattern, double shift) {
   BlockHessian H(pattern);
   for (int j = 0; j < pattern->vertex_count(); ++j) {

@@ -128,8 +128,8 @@ TEST(CommandLine, TellsWhatIsWrong) {
       {{"run", "a", "--thread", "2"}, "unknown option '--thread' of run; did you mean '--threads'?"},
       {{"run", "a", "-x"},
        "unknown option '-x' of run; known are --help, --version, --out, --set, --frames, --every, --half, "
-       "--region, --backend, --threads, --video, --codec, --static, --log-newton, --profile, --force, --quiet, "
-       "--json"},
+       "--region, --backend, --threads, --video, --codec, --static, --log-newton, --profile, --force, "
+       "--quiet, --json"},
       {{"simulate", "a", "--video"}, "'--video' is no option of simulate, only of: run, render"},
       {{"run", "a", "--mend=b"}, "'--mend' is no option of run, only of: info"},
       {{"run", "a", "--out"}, "--out needs a value: --out DIR"},
