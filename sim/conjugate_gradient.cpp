@@ -19,7 +19,7 @@ CgReport conjugate_gradients(CgSystem& system, const VecX& b, const CgLimits& li
   const double b_norm = b.norm();
   if (b_norm == 0.0) return report;
   double rz = system.update(0.0, p, y, x, r, z).rz;
-  system.turn(0.0, z, p);
+  p = z;
   for (;;) {
     const double curvature = system.times(p, y);
     if (!(curvature > 0.0)) {
@@ -39,7 +39,7 @@ CgReport conjugate_gradients(CgSystem& system, const VecX& b, const CgLimits& li
       report.status = CgStatus::gave_up;
       return report;
     }
-    system.turn(next.rz / rz, z, p);
+    p = z + next.rz / rz * p;
     rz = next.rz;
   }
 }
@@ -203,7 +203,6 @@ public:
                          z.data());
     });
   }
-  void turn(double beta, const VecX& z, VecX& p) override { p = z + beta * p; }
 
   static int pieces(const BlockJacobiCg& a) { return (a.row_count() + kRows - 1) / kRows; }
   /// Rows [begin, end) of a piece.

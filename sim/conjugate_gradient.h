@@ -43,8 +43,6 @@ public:
   };
   /// x += alpha p, r -= alpha y, z = B r with the preconditioner B ≈ H⁻¹.
   virtual Products update(double alpha, const VecX& p, const VecX& y, VecX& x, VecX& r, VecX& z) = 0;
-  /// p = z + beta p.
-  virtual void turn(double beta, const VecX& z, VecX& p) = 0;
 };
 
 /// Preconditioned conjugate gradients from x = 0. [Hestenes and Stiefel 1952]

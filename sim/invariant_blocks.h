@@ -9,10 +9,9 @@
 namespace lagomorph::sim {
 
 /// Adds vol Bᵀ (∂²ψ/∂F²) B of a density ψ(I_C, J) to `blocks` as add_inner_blocks() does, without the 9×9
-/// matrix: with u_a = F D_a and w_a = (cof F) D_a, block (a, b) is 2 ψ_I (D_a·D_b) 1 + 4 ψ_II u_a u_bᵀ + 2
-/// ψ_IJ (u_a w_bᵀ + w_a u_bᵀ)
-/// + ψ_JJ w_a w_bᵀ + ψ_J S, where S_rs = ε_rst c_t with c = F (D_a × D_b), since ∂²J/∂F_rk ∂F_sl = ε_rst
-/// ε_klm F_tm.
+/// matrix: with u_a = F D_a and w_a = (cof F) D_a, block (a, b) is
+///   2 ψ_I (D_a·D_b) 1 + 4 ψ_II u_a u_bᵀ + 2 ψ_IJ (u_a w_bᵀ + w_a u_bᵀ) + ψ_JJ w_a w_bᵀ + ψ_J S,
+/// where S_rs = ε_rst c_t with c = F (D_a × D_b), since ∂²J/∂F_rk ∂F_sl = ε_rst ε_klm F_tm.
 template <int N>
 void add_invariant_blocks(double volume, const InvariantDerivatives& d, const Mat3& F,
                           const InnerGradients<N>& D, double* blocks) {

@@ -49,8 +49,6 @@ public:
   /// them by Newton's own direction for held ones that move, in as many pieces as keep V defined. On a bad
   /// status q is where it gave up.
   NewtonReport minimize(const Model&, const IncrementalPotential&, VecX& q);
-  /// How the linear systems were solved so far.
-  const SolveCounts& solves() const { return solver_.counts(); }
 
 private:
   struct Point;

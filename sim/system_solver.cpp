@@ -38,7 +38,6 @@ public:
     factor_.solve(r, z);
     return {r.squaredNorm(), r.dot(z)};
   }
-  void turn(double beta, const VecX& z, VecX& p) override { p = z + beta * p; }
 
 private:
   const BlockHessian& H_;

@@ -22,8 +22,7 @@ struct SolveCounts {
 ///
 /// - "cg": conjugate gradients preconditioned by the diagonal's 3×3 blocks.
 /// - "cholmod": a Cholesky factorization of a minimization's first matrix; of those after it only when
-/// conjugate
-///   gradients preconditioned by that factor would cost more.
+///   conjugate gradients preconditioned by that factor would cost more.
 /// - "auto": conjugate gradients while what they still ask for, by counted blocks, is less work than a
 ///   factorization, by an estimate of its nonzeros and operations; then the factor. No clock is asked: the
 ///   way is a function of the matrices, and so the same on a busy machine.

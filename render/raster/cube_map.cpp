@@ -21,6 +21,13 @@ Vec3 cube_point(int face, float s, float t) {
   }
 }
 
+Vec3 cube_texel_point(int size, int face, int x, int y) {
+  const auto center = [size](int i) {
+    return (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(size) - 1.0F;
+  };
+  return cube_point(face, center(x), center(y));
+}
+
 CubePlace cube_place(const Vec3& d) {
   const Vec3 a = d.cwiseAbs();
   if (a.x() >= a.y() && a.x() >= a.z()) {

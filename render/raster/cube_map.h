@@ -34,6 +34,8 @@ private:
 /// Point of a face, both coordinates in [-1, 1] (beyond: of the plane that the face lies in), as a vector
 /// from the cube's middle: not of unit length.
 Vec3 cube_point(int face, float s, float t);
+/// The middle of a texel of a face with size x size of them, likewise; x and y may lie beyond the face.
+Vec3 cube_texel_point(int size, int face, int x, int y);
 /// And back: the face that a direction meets, and where.
 struct CubePlace {
   int face;

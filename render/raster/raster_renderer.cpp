@@ -104,7 +104,7 @@ private:
   bool ground_hides(const Camera&) const;
   void draw_seen(bool behind_ground) const;
   void draw_background() const;
-  void draw_layers(const Program& count, const Program& layer) const;
+  void draw_layers(const Program& count, const Program& layer, GLenum weight_of_drawn) const;
   void draw_see_through() const;
   void draw_depth() const;
   void draw_body_ids(Image&);
@@ -284,7 +284,7 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
   draw_seen(ground_hides(camera));
   gl_->targets->bind_color();
   gl_->targets->bind_seen_textures();
-  draw_layers(gl_->programs->count, gl_->seen().layer);
+  draw_layers(gl_->programs->count, gl_->seen().layer, GL_ONE_MINUS_SRC_ALPHA);
   if (gl_->features.see_through) draw_see_through();
   glDisable(GL_SCISSOR_TEST);
   targets->read_color(image);
@@ -386,9 +386,9 @@ void RasterRenderer::draw_background() const {
   glDisable(GL_BLEND);
 }
 
-/// The bound samples that are seen, lit once a pixel and surface, into the bound picture: layers add up, the
-/// first covers for all.
-void RasterRenderer::draw_layers(const Program& count, const Program& layer) const {
+/// The bound samples that are seen, lit once a pixel and surface, into the bound picture: layers add up, by
+/// what `weight_of_drawn` leaves of those before; where that is their cover, the first covers for all.
+void RasterRenderer::draw_layers(const Program& count, const Program& layer, GLenum weight_of_drawn) const {
   glDisable(GL_CULL_FACE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
@@ -399,7 +399,7 @@ void RasterRenderer::draw_layers(const Program& count, const Program& layer) con
   glDepthFunc(GL_LESS);
   glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, &layer == &gl_->seen().layer ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
+  glBlendFunc(GL_ONE, weight_of_drawn);
   layer.use();
   for (int i = 0; i < raster_.multisample; ++i) {
     glUniform1i(layer.location("layer"), i);
@@ -434,7 +434,7 @@ void RasterRenderer::draw_see_through() const {
     if (any == 0) break;
     targets.bind_peeled_textures(peel % 2);
     targets.bind_peeled_color();
-    draw_layers(programs.count, programs.layer);
+    draw_layers(programs.count, programs.layer, GL_ONE);
   }
   targets.bind_color();
   targets.bind_peeled_color_texture();

@@ -74,10 +74,7 @@ CubeMap<Halves> halved(const CubeMap<Halves>& fine) {
 const Halves& texel_near(const CubeMap<Halves>& cube, int face, int x, int y) {
   const int n = cube.size();
   if (x >= 0 && x < n && y >= 0 && y < n) return cube.at(face, x, y);
-  const auto center = [n](int i) {
-    return (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(n) - 1.0F;
-  };
-  const CubePlace p = cube_place(cube_point(face, center(x), center(y)));
+  const CubePlace p = cube_place(cube_texel_point(n, face, x, y));
   const auto index = [n](float s) {
     return std::clamp(static_cast<int>(0.5F * (s + 1.0F) * static_cast<float>(n)), 0, n - 1);
   };
@@ -138,10 +135,7 @@ CubeMap<Halves> lobes(const std::vector<CubeMap<Halves>>& source, int size, floa
     for (int row = rows.begin(); row != rows.end(); ++row) {
       const int face = row / size, y = row % size;
       for (int x = 0; x < size; ++x) {
-        const auto center = [size](int i) {
-          return (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(size) - 1.0F;
-        };
-        const Vec3 z = cube_point(face, center(x), center(y)).normalized();
+        const Vec3 z = cube_texel_point(size, face, x, y).normalized();
         const Vec3 a = z.unitOrthogonal(), b = z.cross(a);
         Halves sum = Halves::Zero();
         for (const LobeSample& s : samples) {
@@ -180,10 +174,7 @@ std::vector<SkyRay> rays_of(const CubeMap<Halves>& cube) {
   for (int face = 0; face < 6; ++face) {
     for (int y = 0; y < cube.size(); ++y) {
       for (int x = 0; x < cube.size(); ++x) {
-        const auto center = [&](int i) {
-          return (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(cube.size()) - 1.0F;
-        };
-        rays.push_back({cube_point(face, center(x), center(y)).normalized(),
+        rays.push_back({cube_texel_point(cube.size(), face, x, y).normalized(),
                         static_cast<float>(cube_texel_solid_angle(cube.size(), x, y)), cube.at(face, x, y)});
       }
     }
@@ -197,10 +188,7 @@ void add_irradiance(const std::vector<SkyRay>& rays, SkyLight& light) {
                       for (int row = rows.begin(); row != rows.end(); ++row) {
                         const int face = row / irradiance_size, y = row % irradiance_size;
                         for (int x = 0; x < irradiance_size; ++x) {
-                          const auto center = [](int i) {
-                            return (2.0F * static_cast<float>(i) + 1.0F) / irradiance_size - 1.0F;
-                          };
-                          const Vec3 n = cube_point(face, center(x), center(y)).normalized();
+                          const Vec3 n = cube_texel_point(irradiance_size, face, x, y).normalized();
                           Halves sum = Halves::Zero();
                           float below = 1e-6F;
                           for (const SkyRay& ray : rays) {

@@ -9,43 +9,45 @@
 /// Linear systems to solve.
 namespace lagomorph::sim {
 
-/// A system on a pattern: each pair of neighbours coupled at random by [A B]ᵀ[A B], which is positive
-/// semi-definite, and `shift` times the identity.
-inline BlockHessian random_system(const std::shared_ptr<const BlockPattern>& pattern, double shift) {
-  std::mt19937 random(2);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+/// `shift` times the identity, and what couple(A, C, B) adds for each pair of neighbours to the diagonal
+/// blocks A and B of the first and the second and to their common block C.
+template <class Couple>
+BlockHessian coupled_system(const std::shared_ptr<const BlockPattern>& pattern, double shift,
+                            Couple&& couple) {
   BlockHessian H(pattern);
   for (int j = 0; j < pattern->vertex_count(); ++j) {
     H.block(pattern->find(j, j)) += shift * Mat3::Identity();
     for (int k = pattern->starts()[static_cast<std::size_t>(j)];
          k < pattern->starts()[static_cast<std::size_t>(j) + 1]; ++k) {
       const int i = pattern->rows()[static_cast<std::size_t>(k)];
-      if (i == j) continue;
-      const Mat3 A = Mat3::NullaryExpr([&] { return uniform(random); });
-      const Mat3 B = Mat3::NullaryExpr([&] { return uniform(random); });
-      H.block(pattern->find(i, i)) += A.transpose() * A;
-      H.block(pattern->find(j, j)) += B.transpose() * B;
-      H.block(k) += A.transpose() * B;
+      if (i != j) couple(H.block(pattern->find(i, i)), H.block(k), H.block(pattern->find(j, j)));
     }
   }
   return H;
 }
 
-/// The graph's Laplacian in each coordinate, and `shift` times the identity: smooth vectors are hardly
-/// resisted.
+/// Each pair of neighbours coupled at random by [A B]ᵀ[A B], which is positive semi-definite.
+inline BlockHessian random_system(const std::shared_ptr<const BlockPattern>& pattern, double shift) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  return coupled_system(pattern, shift,
+                        [&](Eigen::Map<Mat3> first, Eigen::Map<Mat3> common, Eigen::Map<Mat3> second) {
+                          const Mat3 A = Mat3::NullaryExpr([&] { return uniform(random); });
+                          const Mat3 B = Mat3::NullaryExpr([&] { return uniform(random); });
+                          first += A.transpose() * A;
+                          second += B.transpose() * B;
+                          common += A.transpose() * B;
+                        });
+}
+
+/// The graph's Laplacian in each coordinate: smooth vectors are hardly resisted.
 inline BlockHessian laplacian_system(const std::shared_ptr<const BlockPattern>& pattern, double shift) {
-  BlockHessian H(pattern);
-  for (int j = 0; j < pattern->vertex_count(); ++j) {
-    H.block(pattern->find(j, j)) += shift * Mat3::Identity();
-    for (int k = pattern->starts()[static_cast<std::size_t>(j)];
-         k < pattern->starts()[static_cast<std::size_t>(j) + 1]; ++k) {
-      const int i = pattern->rows()[static_cast<std::size_t>(k)];
-      if (i == j) continue;
-      H.block(k) -= Mat3::Identity();
-      for (const int v : {i, j}) H.block(pattern->find(v, v)) += Mat3::Identity();
-    }
-  }
-  return H;
+  return coupled_system(pattern, shift,
+                        [](Eigen::Map<Mat3> first, Eigen::Map<Mat3> common, Eigen::Map<Mat3> second) {
+                          first += Mat3::Identity();
+                          second += Mat3::Identity();
+                          common -= Mat3::Identity();
+                        });
 }
 
 /// x = Pᵀ (P H Pᵀ)⁻¹ P b with a dense factorization.
