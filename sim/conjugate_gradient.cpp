@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include <Eigen/LU>
+
 #include "sim/parallel.h"
 #include "sim/profile.h"
 #include "sim/simd.h"

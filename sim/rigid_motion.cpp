@@ -1,5 +1,6 @@
 #include "sim/rigid_motion.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/QR>
 
 namespace lagomorph::sim {
