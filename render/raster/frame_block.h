@@ -44,23 +44,23 @@ struct SurfaceBlock {
 
 struct FrameBlock {
   Mat4Column clip_from_world;
-  Vec4 eye;              // xyz [m], w 1 for an orthographic camera
-  Vec4 forward;          // xyz unit
-  Vec4 right;            // xyz, half the view's width long (at depth 1 when perspective)
-  Vec4 up;               // xyz, half the view's height long
-  Vec4 viewport;         // width, height [pixels] and their reciprocals
-  Vec4 zenith;           // rgb, with the sky's strength
-  Vec4 horizon;          // rgb, likewise
-  Vec4 background;       // rgb, w 1 where it is a colour, 0 where it is the sky
-  Vec4 ground;           // height, radius, fade_start [m], 1 where there is ground
-  Vec4 ground_at;        // xyz centre [m]
-  Vec4 ground_texture;   // 0 none, 1 checker, 2 grid; side of a square, width of lines [m]
-  Vec4 texture_color;    // rgb, of its other squares or lines
-  Vec4 ground_map;       // world xz to the ground map's [0, 1]: scale x, offset zw; y: size of a texel [m]
-  Vec4 shadowed_ground;  // least x and z, largest x and z of the ground that meshes can hide a light from [m]
-  Vec4 sky_map;          // xyz centre [m], w 1 / radius of the meshes' sphere [1/m]
-  Vec4 counts;           // lights, taps of the shadow filter, directions of the sky, size of the ground map
-  Vec4 sky_picture;      // of a map: turns of its middle from -z, level of detail at a pixel, strength
+  Vec4 eye;             // xyz [m], w 1 for an orthographic camera
+  Vec4 forward;         // xyz unit
+  Vec4 right;           // xyz, half the view's width long (at depth 1 when perspective)
+  Vec4 up;              // xyz, half the view's height long
+  Vec4 viewport;        // width, height [pixels] and their reciprocals
+  Vec4 zenith;          // rgb, with the sky's strength
+  Vec4 horizon;         // rgb, likewise
+  Vec4 background;      // rgb, w 1 where it is a colour, 0 where it is the sky
+  Vec4 ground;          // height, radius, fade_start [m], 1 where there is ground
+  Vec4 ground_at;       // xyz centre [m]
+  Vec4 ground_texture;  // 0 none, 1 checker, 2 grid; side of a square, width of lines [m]
+  Vec4 texture_color;   // rgb, of its other squares or lines
+  Vec4 ground_map;      // world xz to the ground map's [0, 1]: scale x, offset zw; y: size of a texel [m]
+  Vec4 sky_map;         // xyz centre [m], w 1 / radius of the meshes' sphere [1/m]
+  Vec4 counts;          // lights, 0, 1 where there are meshes, size of the ground map
+  Vec4 shadow_taps;     // of the search for blockers, of the filter; only the CPU reads them
+  Vec4 sky_picture;     // of a map: turns of its middle from -z, level of detail at a pixel, strength
   std::array<LightBlock, most_lights> lights;
   std::array<SkyDirectionBlock, most_sky_directions> sky;
 };

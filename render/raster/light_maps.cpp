@@ -4,6 +4,9 @@
 #include <bit>
 #include <cmath>
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include "render/ground_texture.h"
 #include "render/raster/light_view.h"
 #include "render/raster/shaders/shaders.h"
@@ -16,6 +19,7 @@ namespace {
 
 constexpr int sky_map_size = 256;
 constexpr int ground_map_size = 128;
+constexpr float search_taps = 16.0F;  // of each of a quad's pixels
 constexpr int sky_table_size = 64;
 constexpr int coat_table_size = 32;
 constexpr int widest_sky_picture = 8192;  // 512 MB with its levels
@@ -27,15 +31,15 @@ void sampling(GLenum target, GLenum minify, GLenum magnify) {
   glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-/// Layers of depth; beyond the border there is nothing.
-void allocate_depth(const Texture& texture, int size, int layers) {
-  glBindTexture(GL_TEXTURE_2D_ARRAY, texture.id());
-  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_DEPTH_COMPONENT32F, size, size, layers);
-  sampling(GL_TEXTURE_2D_ARRAY, GL_NEAREST, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  const std::array<float, 4> nothing = {1.0F, 1.0F, 1.0F, 1.0F};
-  glTexParameterfv(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BORDER_COLOR, nothing.data());
+/// A square of depths.
+void allocate_depth(const Framebuffer& target, const Renderbuffer& depths, int size) {
+  glBindFramebuffer(GL_FRAMEBUFFER, target.id());
+  glDrawBuffer(GL_NONE);
+  glReadBuffer(GL_NONE);
+  glBindRenderbuffer(GL_RENDERBUFFER, depths.id());
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, size, size);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depths.id());
+  check_framebuffer("depth map");
 }
 
 /// Of two or four floats an entry.
@@ -102,15 +106,15 @@ LightMaps::LightMaps(const RasterSettings& settings)
       depth_program_("depth map", {shaders::depth_map_vertex}, {shaders::depth_map_fragment}) {
   allocate_table(sky_table_, sky_table_size, 1, sky_irradiance_table(sky_table_size));
   allocate_table(coat_table_, coat_table_size, coat_table_size, coat_albedo_table(coat_table_size));
-  allocate_depth(sky_maps_, sky_map_size, most_sky_directions);
+  allocate_depth(light_target_, light_depths_, settings_.shadow_map);
+  allocate_depth(sky_target_, sky_depths_, sky_map_size);
+  allocate_lit(ground_seen_, ground_map_size, ground_map_size);
   const int levels = static_cast<int>(std::log2(ground_map_size)) + 1;
   for (const Texture* texture : {&ground_ambient_, &ground_bounce_}) {
     glBindTexture(GL_TEXTURE_2D, texture->id());
     glTexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA16F, ground_map_size, ground_map_size);
     sampling(GL_TEXTURE_2D, texture == &ground_bounce_ ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR, GL_LINEAR);
   }
-  glBindFramebuffer(GL_FRAMEBUFFER, depth_target_.id());
-  glDrawBuffer(GL_NONE);
   glBindFramebuffer(GL_FRAMEBUFFER, ground_target_.id());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, ground_ambient_.id(), 0);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, ground_bounce_.id(), 0);
@@ -140,22 +144,14 @@ void LightMaps::set_scene(const RenderScene& scene, const LightFeatures& feature
     features_ = features;
     using Parts = Program::Parts;
     ground_program_.reset();
-    ground_program_.emplace(
-        "ground map", Parts{shaders::full_screen_vertex},
-        Parts{features.definitions().c_str(), shaders::frame, shaders::brdf, shaders::shadow, shaders::sky,
-              shaders::ground_color, shaders::ground_map_fragment});
+    ground_program_.emplace("ground map", Parts{shaders::full_screen_vertex},
+                            Parts{features.definitions().c_str(), shaders::frame, shaders::brdf, shaders::sky,
+                                  shaders::ground_color, shaders::ground_map_fragment});
   }
   if (features.see_through && !see_through_depth_program_) {
     using Parts = Program::Parts;
     see_through_depth_program_.emplace("depth map of dots", Parts{shaders::depth_map_vertex},
                                        Parts{shaders::see_through_depth_map_fragment});
-  }
-  const int layers = std::max<int>(1, static_cast<int>(scene.lights.size()));
-  if (layers != shadow_layers_) {
-    shadow_maps_ = Texture();
-    allocate_depth(shadow_maps_, settings_.shadow_map, layers);
-    shadow_layers_ = layers;
-    check_gl("shadow maps");
   }
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const AreaLight& light = scene.lights[i];
@@ -187,24 +183,27 @@ void LightMaps::set_scene(const RenderScene& scene, const LightFeatures& feature
   block.ground_texture = Vec4(static_cast<float>(texture), g.texture_size, g.line_width, 0.0F);
   block.texture_color = vec4(g.texture_color, 0.0F);
   block.ground_at = vec4(Vec3(g.center.x(), g.height, g.center.z()), 0.0F);
-  block.counts = Vec4(static_cast<float>(scene.lights.size()), static_cast<float>(settings_.shadow_samples),
-                      0.0F, static_cast<float>(ground_map_size));
+  block.counts =
+      Vec4(static_cast<float>(scene.lights.size()), 0.0F, 0.0F, static_cast<float>(ground_map_size));
+  block.shadow_taps = Vec4(search_taps, static_cast<float>(settings_.shadow_samples), 0.0F, 0.0F);
 }
 
 void LightMaps::fit(const RenderScene& scene, std::span<const std::vector<Vec3>> positions,
-                    FrameBlock& block) {
+                    std::span<const MeshBuffers> meshes, FrameBlock& block) {
   light_views_.clear();
+  casters_.assign(scene.lights.size(), {});
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const LightView view = fit_light_view(scene.lights[i], positions, settings_.shadow_map);
     block.lights[i].map = view.map;
     block.lights[i].depth = view.depth;
     light_views_.push_back(view.clip_from_world);
+    for (std::size_t k = 0; k < meshes.size(); ++k)
+      add_casters(scene.lights[i], view, positions[k], meshes[k].triangles(), casters_[i]);
   }
   Eigen::AlignedBox3f box;
   for (const std::vector<Vec3>& mesh : positions) {
     for (const Vec3& p : mesh) box.extend(p);
   }
-  block.shadowed_ground = shadowed_ground(scene, box);
   const Sphere sphere = bounding_sphere(positions, box);
   sky_views_.clear();
   for (const SkyDirectionBlock& s : block.sky) {
@@ -215,7 +214,8 @@ void LightMaps::fit(const RenderScene& scene, std::span<const std::vector<Vec3>>
     clip.block<3, 1>(0, 3) = -(clip.block<3, 3>(0, 0) * sphere.center);
     sky_views_.push_back(clip);
   }
-  block.counts.z() = box.isEmpty() ? 0.0F : static_cast<float>(most_sky_directions);
+  has_meshes_ = !box.isEmpty();
+  block.counts.z() = has_meshes_ ? 1.0F : 0.0F;
   block.sky_map = vec4(sphere.center, 1.0F / sphere.radius);
   const float shadows =
       scene.sky.map ? 2.0F : 1.0F;  // of the meshes' height: those of a bright patch are long
@@ -225,10 +225,9 @@ void LightMaps::fit(const RenderScene& scene, std::span<const std::vector<Vec3>>
                           0.5F - scale * sphere.center.x(), 0.5F - scale * sphere.center.z());
 }
 
-void LightMaps::draw_depth(const Texture& maps, int layer, int size, const Mat4& clip_from_world,
-                           std::span<const MeshBuffers> meshes) {
-  bind(depth_target_, size, size);
-  glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, maps.id(), 0, layer);
+void LightMaps::draw_depth(const Framebuffer& target, int size, const Mat4& clip_from_world,
+                           std::span<const MeshBuffers> meshes, DepthMap& depths) {
+  bind(target, size, size);
   glClear(GL_DEPTH_BUFFER_BIT);
   depth_program_.use();
   glUniformMatrix4fv(depth_program_.location("clip_from_world"), 1, GL_FALSE, clip_from_world.data());
@@ -239,7 +238,21 @@ void LightMaps::draw_depth(const Texture& maps, int layer, int size, const Mat4&
     mesh.closed() ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
     mesh.draw();
   }
-  if (!features_.see_through) return;
+  if (features_.see_through) draw_dots(clip_from_world, meshes);
+  read_.resize(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
+  glReadPixels(0, 0, size, size, GL_DEPTH_COMPONENT, GL_FLOAT, read_.data());
+  depths.resize(read_.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, read_.size(), 65536), [&](const auto& range) {
+    std::transform(read_.begin() + static_cast<std::ptrdiff_t>(range.begin()),
+                   read_.begin() + static_cast<std::ptrdiff_t>(range.end()),
+                   depths.begin() + static_cast<std::ptrdiff_t>(range.begin()), [](float d) {
+                     const auto step = static_cast<std::int32_t>(d * static_cast<float>(no_depth) + 0.5F);
+                     return static_cast<std::uint16_t>(d < 1.0F ? std::min(step, no_depth - 1) : no_depth);
+                   });
+  });
+}
+
+void LightMaps::draw_dots(const Mat4& clip_from_world, std::span<const MeshBuffers> meshes) {
   see_through_depth_program_->use();
   const auto location = [&](const char* name) { return see_through_depth_program_->location(name); };
   glUniformMatrix4fv(location("clip_from_world"), 1, GL_FALSE, clip_from_world.data());
@@ -252,14 +265,24 @@ void LightMaps::draw_depth(const Texture& maps, int layer, int size, const Mat4&
   }
 }
 
-void LightMaps::draw(std::span<const MeshBuffers> meshes) {
+void LightMaps::draw(std::span<const MeshBuffers> meshes, const FrameBlock& block) {
+  depths_.light_size = settings_.shadow_map;
+  depths_.lights.resize(light_views_.size());
+  depths_.sky_size = sky_map_size;
+  depths_.sky.resize(has_meshes_ ? sky_views_.size() : 0);
+  depths_.see_through = features_.see_through;
+  depths_.sky_is_map = features_.sky_map;
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   for (std::size_t i = 0; i < light_views_.size(); ++i)
-    draw_depth(shadow_maps_, static_cast<int>(i), settings_.shadow_map, light_views_[i], meshes);
-  for (std::size_t i = 0; i < sky_views_.size(); ++i)
-    draw_depth(sky_maps_, static_cast<int>(i), sky_map_size, sky_views_[i], meshes);
+    draw_depth(light_target_, settings_.shadow_map, light_views_[i], meshes, depths_.lights[i]);
+  for (std::size_t i = 0; i < depths_.sky.size(); ++i)
+    draw_depth(sky_target_, sky_map_size, sky_views_[i], meshes, depths_.sky[i]);
   if (!ground_) return;
+  light_ground_map(block, depths_, ground_lit_);
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, ground_seen_.id());
+  upload_lit(ground_lit_, ground_map_size, ground_map_size);
   bind(ground_target_, ground_map_size, ground_map_size);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
@@ -272,10 +295,6 @@ void LightMaps::draw(std::span<const MeshBuffers> meshes) {
 }
 
 void LightMaps::bind_textures() const {
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D_ARRAY, shadow_maps_.id());
-  glActiveTexture(GL_TEXTURE1);
-  glBindTexture(GL_TEXTURE_2D_ARRAY, sky_maps_.id());
   const Texture* const maps[] = {&sky_table_, &ground_ambient_, &ground_bounce_, &coat_table_};
   for (GLenum unit = 0; unit < 4; ++unit) {
     glActiveTexture(GL_TEXTURE2 + unit);

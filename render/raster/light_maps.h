@@ -5,8 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "render/raster/caster_grid.h"
 #include "render/raster/frame_block.h"
 #include "render/raster/gl_objects.h"
+#include "render/raster/lit_pixels.h"
 #include "render/raster/mesh_buffers.h"
 #include "render/raster/programs.h"
 #include "render/render_scene.h"
@@ -14,8 +16,9 @@
 
 namespace lagomorph::render::raster {
 
-/// What lies between light and surface: a depth map a light, one a direction of the sky, and a map of the
-/// light on the ground under the meshes. All of it depends on the meshes' positions, not on the camera.
+/// What lies between light and surface: a depth map a light, one a direction of the sky, for the CPU to look
+/// up, and a map of the light on the ground under the meshes. All of it depends on the meshes' positions, not
+/// on the camera.
 class LightMaps {
 public:
   explicit LightMaps(const RasterSettings&);
@@ -24,32 +27,43 @@ public:
   /// features.
   void set_scene(const RenderScene&, const LightFeatures&, FrameBlock&);
   /// Fits the maps to new positions and says so in the frame's block.
-  void fit(const RenderScene&, std::span<const std::vector<Vec3>> positions, FrameBlock&);
+  void fit(const RenderScene&, std::span<const std::vector<Vec3>> positions,
+           std::span<const MeshBuffers> meshes, FrameBlock&);
+  /// Where the meshes are in the lights' maps, a grid each.
+  std::span<const CasterGrid> casters() const { return casters_; }
   /// Draws the maps of what was fitted; the block is bound.
-  void draw(std::span<const MeshBuffers> meshes);
+  void draw(std::span<const MeshBuffers> meshes, const FrameBlock&);
+  /// The depth maps of what was drawn.
+  const DepthMaps& depths() const { return depths_; }
   /// Binds all maps and tables where the shaders expect them.
   void bind_textures() const;
 
 private:
   void set_sky_map(const RenderScene&, FrameBlock&);
-  void draw_depth(const Texture& maps, int layer, int size, const Mat4& clip_from_world,
-                  std::span<const MeshBuffers> meshes);
+  void draw_depth(const Framebuffer& target, int size, const Mat4& clip_from_world,
+                  std::span<const MeshBuffers> meshes, DepthMap&);
+  void draw_dots(const Mat4& clip_from_world, std::span<const MeshBuffers> meshes);
 
   RasterSettings settings_;
   Program depth_program_;
   std::optional<Program> see_through_depth_program_;  // compiled when it is needed
   std::optional<Program> ground_program_;             // for features_
   LightFeatures features_;
-  Texture shadow_maps_, sky_maps_, sky_table_, coat_table_, ground_ambient_, ground_bounce_;
+  Texture sky_table_, coat_table_, ground_ambient_, ground_bounce_, ground_seen_;
   /// A map of the sky, see sky_light.h.
   struct SkyTextures {
     Texture irradiance_above, radiance_below, lobes_above, lobes_below, picture;
   };
   std::optional<SkyTextures> sky_textures_;
-  Framebuffer depth_target_, ground_target_;
+  Framebuffer light_target_, sky_target_, ground_target_;
+  Renderbuffer light_depths_, sky_depths_;
   VertexArray no_attributes_;
   std::vector<Mat4> light_views_, sky_views_;
-  int shadow_layers_ = 0;
+  std::vector<CasterGrid> casters_;
+  DepthMaps depths_;
+  LitPixels ground_lit_;
+  std::vector<float> read_;  // of the map at work
+  bool has_meshes_ = false;
   bool ground_ = false;
 };
 

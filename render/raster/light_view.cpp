@@ -73,32 +73,4 @@ LightView fit_light_view(const AreaLight& light, std::span<const std::vector<Vec
   return view;
 }
 
-Vec4 shadowed_ground(const RenderScene& scene, const Eigen::AlignedBox3f& box) {
-  const Ground& g = scene.ground;
-  const float left = g.center.x() - g.radius;
-  const float right = g.center.x() + g.radius;
-  const float back = g.center.z() - g.radius;
-  const float front = g.center.z() + g.radius;
-  Interval x, z;
-  for (const AreaLight& light : scene.lights) {
-    if (box.isEmpty() || box.max().y() <= g.height) break;
-    const LightFrame frame = light_frame(light);
-    for (int i = 0; i < 4; ++i) {
-      const Vec3 from = light.position + ((i & 1) - 0.5F) * light.size.x() * frame.right +
-                        ((i >> 1) - 0.5F) * light.size.y() * frame.up;
-      if (from.y() <= box.max().y()) return {left, back, right, front};  // shadows without end
-      for (int k = 0; k < 8; ++k) {
-        Vec3 p = box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(k));
-        p.y() = std::max(p.y(), g.height);
-        const Vec3 on_ground = p + (from - p) * ((g.height - p.y()) / (from.y() - p.y()));
-        x.add(on_ground.x());
-        z.add(on_ground.z());
-      }
-    }
-  }
-  if (x.low > x.high) x = z = Interval{0.0F, 0.0F};  // no light, no mesh
-  return {std::clamp(x.low, left, right), std::clamp(z.low, back, front), std::clamp(x.high, left, right),
-          std::clamp(z.high, back, front)};
-}
-
 }  // namespace lagomorph::render::raster

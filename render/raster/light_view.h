@@ -3,8 +3,6 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include "render/raster/frame_block.h"
 #include "render/render_scene.h"
 
@@ -20,9 +18,5 @@ struct LightView {
 /// Fits the view around all positions. The borders are multiples of a sixteenth of the view or so, so that
 /// they stand still while the meshes move a little: a pure function of the positions all the same.
 LightView fit_light_view(const AreaLight&, std::span<const std::vector<Vec3>> positions, int map_size);
-
-/// Least x and z, largest x and z of the points of the ground that something in the box may hide a part of a
-/// light from, within the ground's square.
-Vec4 shadowed_ground(const RenderScene&, const Eigen::AlignedBox3f& box);
 
 }  // namespace lagomorph::render::raster

@@ -27,6 +27,7 @@ public:
   /// All triangles, with position and, where it has them, normal and colour as attributes 0, 1 and 2.
   void draw() const;
 
+  std::span<const Triangle> triangles() const { return triangles_; }
   const Material& material() const { return material_; }
   bool smooth() const { return smooth_; }
   bool closed() const { return closed_; }

@@ -16,8 +16,7 @@ std::string definitions(int multisample, bool colors) {
 const char* color_definition(bool colors) { return colors ? "#define COLORS\n" : ""; }
 
 std::string LightFeatures::definitions() const {
-  return std::string(sky_map ? "#define SKY_MAP\n" : "") + (sun_discs ? "#define SUN_DISCS\n" : "") +
-         (see_through ? "#define SEE_THROUGH\n" : "");
+  return std::string(sky_map ? "#define SKY_MAP\n" : "") + (sun_discs ? "#define SUN_DISCS\n" : "");
 }
 
 SeenPrograms::SeenPrograms(int multisample, bool colors, const LightFeatures& light_features)
@@ -26,10 +25,9 @@ SeenPrograms::SeenPrograms(int multisample, bool colors, const LightFeatures& li
       light("seen light", {shaders::frame, shaders::emitter_vertex},
             {"#define EMITTER\n", color_definition(colors), shaders::frame, shaders::seen_fragment}),
       layer("layer", {shaders::frame, shaders::layer_vertex},
-            {"#define SHADOWS\n", light_features.definitions().c_str(),
-             definitions(multisample, colors).c_str(), shaders::frame, shaders::brdf, shaders::shadow,
-             shaders::sky, shaders::shade, shaders::ground_point, shaders::layers, shaders::layer_fragment}) {
-}
+            {light_features.definitions().c_str(), definitions(multisample, colors).c_str(), shaders::frame,
+             shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point, shaders::layers,
+             shaders::layer_point, shaders::layer_fragment}) {}
 
 PeelPrograms::PeelPrograms(int multisample, bool colors, const LightFeatures& light_features)
     : mesh("peeled mesh", {"#define PEEL\n", color_definition(colors), shaders::frame, shaders::mesh_vertex},
@@ -38,10 +36,13 @@ PeelPrograms::PeelPrograms(int multisample, bool colors, const LightFeatures& li
       count("count of peeled layers", {shaders::full_screen_vertex},
             {"#define PEEL\n", definitions(multisample, false).c_str(), shaders::frame, shaders::layers,
              shaders::count_fragment}),
+      surface("peeled surface", {shaders::frame, shaders::layer_vertex},
+              {"#define PEEL\n", definitions(multisample, false).c_str(), shaders::frame, shaders::layers,
+               shaders::layer_point, shaders::surface_fragment}),
       layer("peeled layer", {shaders::frame, shaders::layer_vertex},
-            {"#define PEEL\n#define SHADOWS\n", light_features.definitions().c_str(),
-             definitions(multisample, colors).c_str(), shaders::frame, shaders::brdf, shaders::shadow,
-             shaders::sky, shaders::shade, shaders::ground_point, shaders::layers, shaders::layer_fragment}),
+            {"#define PEEL\n", light_features.definitions().c_str(), definitions(multisample, colors).c_str(),
+             shaders::frame, shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point,
+             shaders::layers, shaders::layer_point, shaders::layer_fragment}),
       composite("peeled surfaces over the picture", {shaders::full_screen_vertex},
                 {shaders::composite_fragment}) {}
 
@@ -49,19 +50,12 @@ Programs::Programs(int multisample, const LightFeatures& light_features)
     : seen(multisample, false, light_features),
       ground_cover("ground cover", {shaders::frame, shaders::ground_vertex},
                    {shaders::frame, shaders::ground_point, shaders::ground_cover_fragment}),
-      background(
-          "background", {shaders::full_screen_vertex},
-          {light_features.definitions().c_str(), shaders::frame, shaders::sky, shaders::background_fragment}),
-      ground("ground", {shaders::frame, shaders::ground_vertex},
-             {light_features.definitions().c_str(), shaders::frame, shaders::brdf, shaders::sky,
-              shaders::shade, shaders::ground_point, shaders::ground_color, shaders::ground_fragment}),
-      shadowed_ground("shadowed ground", {shaders::frame, shaders::ground_vertex},
-                      {"#define SHADOWS\n", light_features.definitions().c_str(), shaders::frame,
-                       shaders::brdf, shaders::shadow, shaders::sky, shaders::shade, shaders::ground_point,
-                       shaders::ground_color, shaders::ground_fragment}),
       count("count of layers", {shaders::full_screen_vertex},
             {definitions(multisample, false).c_str(), shaders::frame, shaders::layers,
              shaders::count_fragment}),
+      surface("surface", {shaders::frame, shaders::layer_vertex},
+              {definitions(multisample, false).c_str(), shaders::frame, shaders::layers, shaders::layer_point,
+               shaders::surface_fragment}),
       mesh_depth("mesh depth", {shaders::frame, shaders::mesh_vertex},
                  {shaders::frame, shaders::mesh_depth_fragment}),
       ground_depth("ground depth", {shaders::frame, shaders::ground_vertex},

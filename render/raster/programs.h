@@ -10,7 +10,7 @@ namespace lagomorph::render::raster {
 struct LightFeatures {
   bool sky_map = false;      // the sky is a map
   bool sun_discs = false;    // suns are seen in the sky
-  bool see_through = false;  // some bodies are not opaque
+  bool see_through = false;  // some bodies are not opaque; the shaders of light need not know
   bool operator==(const LightFeatures&) const = default;
 
   /// For all shaders that know of the sky.
@@ -30,7 +30,7 @@ struct SeenPrograms {
 struct PeelPrograms {
   PeelPrograms(int multisample, bool colors, const LightFeatures&);
 
-  Program mesh, count, layer, composite;
+  Program mesh, count, surface, layer, composite;
 };
 
 /// For shaders of meshes whose vertices have colours.
@@ -41,7 +41,7 @@ struct Programs {
   Programs(int multisample, const LightFeatures&);
 
   SeenPrograms seen;
-  Program ground_cover, background, ground, shadowed_ground, count, mesh_depth, ground_depth;
+  Program ground_cover, count, surface, mesh_depth, ground_depth;
 };
 
 }  // namespace lagomorph::render::raster

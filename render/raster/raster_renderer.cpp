@@ -14,12 +14,15 @@
 #include "render/raster/frame_block.h"
 #include "render/raster/gl_context.h"
 #include "render/raster/gl_objects.h"
+#include "render/raster/ground_tiles.h"
 #include "render/raster/light_maps.h"
+#include "render/raster/lit_pixels.h"
 #include "render/raster/mesh_buffers.h"
 #include "render/raster/optics_stand_in.h"
 #include "render/raster/programs.h"
 #include "render/raster/shaders/shaders.h"
 #include "render/raster/stand_ins.h"
+#include "render/raster/still_picture.h"
 #include "render/raster/targets.h"
 #include "render/raster/view_range.h"
 
@@ -78,6 +81,7 @@ private:
     LightFeatures features;
     std::optional<Programs> programs;  // for these, from the first scene on
     LightMaps maps;
+    std::optional<StillPicture> still;
     Buffer frame, surfaces;
     VertexArray no_attributes;
     std::vector<MeshBuffers> meshes;
@@ -98,14 +102,19 @@ private:
   void upload_surfaces(const RenderScene&);
   Mat4 upload_frame(const Camera&, const Camera& before);
   void draw_full_screen() const;
-  void draw_ground_cells(const Program&, bool shadowed) const;
+  void draw_ground(const Program&) const;
   enum class Which { all, opaque, see_through };
   void draw_meshes(const Program&, Which which = Which::all) const;
   bool ground_hides(const Camera&) const;
   void draw_seen(bool behind_ground) const;
-  void draw_background() const;
-  void draw_layers(const Program& count, const Program& layer, GLenum weight_of_drawn) const;
-  void draw_see_through() const;
+  void draw_background(const PixelRectangle& drawn);
+  struct LayerPass {
+    const Program &count, &surface, &layer;
+    GLenum weight_of_drawn;
+    bool peeled;
+  };
+  void draw_layers(const PixelRectangle& seen, const LayerPass&);
+  void draw_see_through(const PixelRectangle& seen);
   void draw_depth() const;
   void draw_body_ids(Image&);
   void draw_alpha(Image&);
@@ -125,6 +134,8 @@ private:
   std::vector<std::vector<Vec3>> positions_;  // of each mesh
   std::vector<int> body_ids_;                 // of each mesh
   FrameBlock block_{};
+  std::vector<SurfaceTexel> surfaces_;  // of the layer at work
+  LitPixels lit_;                       // likewise
   bool lights_are_stale_ = true;
 };
 
@@ -154,6 +165,12 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
   gl_->has_colors = std::any_of(gl_->meshes.begin(), gl_->meshes.end(),
                                 [](const MeshBuffers& mesh) { return mesh.colored(); });
   make_programs();
+  const int lights = static_cast<int>(scene_.lights.size());
+  if (!gl_->still || !gl_->still->is_for(gl_->features, lights)) {
+    gl_->still.reset();
+    gl_->still.emplace(gl_->features, lights);
+  }
+  gl_->still->forget();
   upload_surfaces(scene);
   gl_->maps.set_scene(scene_, gl_->features, block_);
   lights_are_stale_ = true;
@@ -262,30 +279,33 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
     targets.reset();
     targets.emplace(camera.width(), camera.height(), raster_.multisample, gl_->has_colors);
   }
-  if (lights_are_stale_) gl_->maps.fit(scene_, positions_, block_);
+  if (lights_are_stale_) gl_->maps.fit(scene_, positions_, gl_->meshes, block_);
   const Mat4 clip_before =
       upload_frame(camera, frame.camera_before != nullptr ? *frame.camera_before : camera);
   gl_->maps.bind_textures();
-  if (lights_are_stale_) gl_->maps.draw(gl_->meshes);
+  if (lights_are_stale_) gl_->maps.draw(gl_->meshes, block_);
   lights_are_stale_ = false;
 
   Image image(camera.width(), camera.height());
-  const PixelRectangle drawn = drawn_rectangle(settings_, camera.height());
+  const PixelRectangle picture = {0, 0, camera.width(), camera.height()};
+  const PixelRectangle drawn = common_rectangle(drawn_rectangle(settings_, camera.height()), picture);
   if (draws_alpha()) {  // of all pixels
     targets->bind_seen();
     targets->clear_seen();
   }
-  const PixelRectangle seen = common_rectangle(seen_rectangle(camera, positions_, scene_), drawn);
+  const PixelRectangle seen =
+      common_rectangle(
+      whole_blocks(common_rectangle(seen_rectangle(camera, positions_, scene_), drawn)), picture);
   glScissor(drawn.x, drawn.y, drawn.width, drawn.height);
   if (!settings_.region.empty()) glEnable(GL_SCISSOR_TEST);
-  draw_background();
+  draw_background(drawn);
   glScissor(seen.x, seen.y, seen.width, seen.height);
   glEnable(GL_SCISSOR_TEST);
   draw_seen(ground_hides(camera));
-  gl_->targets->bind_color();
   gl_->targets->bind_seen_textures();
-  draw_layers(gl_->programs->count, gl_->seen().layer, GL_ONE_MINUS_SRC_ALPHA);
-  if (gl_->features.see_through) draw_see_through();
+  draw_layers(
+      seen, {gl_->programs->count, gl_->programs->surface, gl_->seen().layer, GL_ONE_MINUS_SRC_ALPHA, false});
+  if (gl_->features.see_through) draw_see_through(seen);
   glDisable(GL_SCISSOR_TEST);
   targets->read_color(image);
   if (wants(depth_channel)) {
@@ -309,13 +329,11 @@ void RasterRenderer::draw_full_screen() const {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-/// The middle of the ground's 3 x 3 cells, or the other eight.
-void RasterRenderer::draw_ground_cells(const Program& program, bool shadowed) const {
+void RasterRenderer::draw_ground(const Program& program) const {
   program.use();
   glDisable(GL_CULL_FACE);
   glBindVertexArray(gl_->no_attributes.id());
-  glUniform1i(program.location("first_cell"), shadowed ? 4 : 0);
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, shadowed ? 1 : 8);
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
 void RasterRenderer::draw_meshes(const Program& program, Which which) const {
@@ -351,8 +369,7 @@ void RasterRenderer::draw_seen(bool behind_ground) const {
   gl_->targets->clear_seen();
   if (behind_ground) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    draw_ground_cells(programs.ground_cover, true);
-    draw_ground_cells(programs.ground_cover, false);
+    draw_ground(programs.ground_cover);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
   draw_meshes(gl_->seen().mesh, Which::opaque);
@@ -369,49 +386,56 @@ void RasterRenderer::draw_seen(bool behind_ground) const {
 }
 
 /// The background and the ground over it.
-void RasterRenderer::draw_background() const {
-  const Programs& programs = *gl_->programs;
+void RasterRenderer::draw_background(const PixelRectangle& drawn) {
+  gl_->still->draw(block_);
+  gl_->targets->copy_color(gl_->still->picture(), drawn);
+  const std::vector<TileRun> tiles = touched_tiles(block_, gl_->maps.casters(), raster_.shadow_map, drawn);
+  light_ground(block_, gl_->maps.depths(), tiles, lit_);
+  gl_->targets->take(lit_);
   gl_->targets->bind_color();
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_BLEND);
-  programs.background.use();
-  draw_full_screen();
-  glEnable(GL_BLEND);
-  if (scene_.ground.enabled) {
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    draw_ground_cells(programs.shadowed_ground, true);
-    draw_ground_cells(programs.ground, false);
-  }
-  glDisable(GL_BLEND);
+  gl_->still->draw_touched(tiles);
 }
 
-/// The bound samples that are seen, lit once a pixel and surface, into the bound picture: layers add up, by
-/// what `weight_of_drawn` leaves of those before; where that is their cover, the first covers for all.
-void RasterRenderer::draw_layers(const Program& count, const Program& layer, GLenum weight_of_drawn) const {
+/// The bound samples that are seen, lit once a pixel and surface, into the picture or that of the peeled
+/// surfaces: layers add up, by what `weight_of_drawn` leaves of those before; where that is their cover, the
+/// first covers for all.
+void RasterRenderer::draw_layers(const PixelRectangle& seen, const LayerPass& pass) {
+  Targets& targets = *gl_->targets;
+  const PixelRectangle blocks = whole_blocks(seen);
   glDisable(GL_CULL_FACE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  count.use();
+  targets.bind_surface();
+  pass.count.use();
   draw_full_screen();
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_FALSE);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, weight_of_drawn);
-  layer.use();
+  constexpr std::array<GLuint, 4> nothing = {};
   for (int i = 0; i < raster_.multisample; ++i) {
-    glUniform1i(layer.location("layer"), i);
+    targets.bind_surface();
+    glClearBufferuiv(GL_COLOR, 0, nothing.data());
+    pass.surface.use();
+    glUniform1i(pass.surface.location("layer"), i);
     draw_full_screen();
+    targets.read_surface(blocks, surfaces_);
+    if (!light_surfaces(block_, gl_->maps.depths(), blocks, surfaces_, lit_)) break;
+    targets.take(lit_);
+    pass.peeled ? targets.bind_peeled_color() : targets.bind_color();
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, pass.weight_of_drawn);
+    pass.layer.use();
+    glUniform1i(pass.layer.location("layer"), i);
+    draw_full_screen();
+    glDisable(GL_BLEND);
   }
   glDepthMask(GL_TRUE);
-  glDisable(GL_BLEND);
 }
 
 /// What is not opaque: surface behind surface as far as there are any, each by what those before it let
 /// through. So the order in which they are drawn does not matter.
-void RasterRenderer::draw_see_through() const {
+void RasterRenderer::draw_see_through(const PixelRectangle& seen) {
   Targets& targets = *gl_->targets;
   const PeelPrograms& programs = *gl_->peel;
   targets.need_peels();
@@ -433,8 +457,7 @@ void RasterRenderer::draw_see_through() const {
     glGetQueryObjectuiv(query.id(), GL_QUERY_RESULT, &any);
     if (any == 0) break;
     targets.bind_peeled_textures(peel % 2);
-    targets.bind_peeled_color();
-    draw_layers(programs.count, programs.layer, GL_ONE);
+    draw_layers(seen, {programs.count, programs.surface, programs.layer, GL_ONE, true});
   }
   targets.bind_color();
   targets.bind_peeled_color_texture();
@@ -457,8 +480,7 @@ void RasterRenderer::draw_depth() const {
   glClear(GL_DEPTH_BUFFER_BIT);
   draw_meshes(programs.mesh_depth);
   if (!scene_.ground.enabled) return;
-  draw_ground_cells(programs.ground_depth, true);
-  draw_ground_cells(programs.ground_depth, false);
+  draw_ground(programs.ground_depth);
 }
 
 /// The meshes' numbers from 1 on; the ground hides them and has none.
@@ -475,8 +497,7 @@ void RasterRenderer::draw_body_ids(Image& image) {
   glClear(GL_DEPTH_BUFFER_BIT);
   if (scene_.ground.enabled) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    draw_ground_cells(gl_->programs->ground_depth, true);
-    draw_ground_cells(gl_->programs->ground_depth, false);
+    draw_ground(gl_->programs->ground_depth);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
   draw_meshes(*gl_->mesh_number);
@@ -516,8 +537,7 @@ void RasterRenderer::draw_data(Image& image, const Mat4& clip_before) {
   }
   data->begin(clip_before);
   if (scene_.ground.enabled) {
-    draw_ground_cells(data->ground(), true);
-    draw_ground_cells(data->ground(), false);
+    draw_ground(data->ground());
   }
   draw_meshes(data->mesh());
   data->read(image);

@@ -67,6 +67,40 @@ Targets::Targets(int width, int height, int samples, bool colors)
   glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, width_, height_);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
   check_framebuffer("picture");
+
+  bind_surface();
+  glBindTexture(GL_TEXTURE_2D, surface_.id());
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32UI, width, height);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, surface_.id(), 0);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
+  check_framebuffer("surfaces");
+
+  allocate_lit(lit_, width, height);
+}
+
+void Targets::copy_color(const Texture& from, const PixelRectangle& r) const {
+  if (r.width <= 0 || r.height <= 0) return;
+  glCopyImageSubData(from.id(), GL_TEXTURE_2D, 0, r.x, r.y, 0, color_.id(), GL_TEXTURE_2D, 0, r.x, r.y, 0,
+                     r.width, r.height, 1);
+}
+
+void Targets::read_surface(const PixelRectangle& r, std::vector<SurfaceTexel>& texels) const {
+  texels.assign(static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height), {});
+  const PixelRectangle there = common_rectangle(r, {0, 0, width_, height_});
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, surface_target_.id());
+  glPixelStorei(GL_PACK_ROW_LENGTH, r.width);
+  glReadPixels(there.x, there.y, there.width, there.height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, texels.data());
+  glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+}
+
+void Targets::bind_lit_texture() const {
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, lit_.id());
+}
+
+void Targets::take(const LitPixels& lit) const {
+  bind_lit_texture();
+  upload_lit(lit, width_, height_);
 }
 
 void Targets::clear_seen() const {

@@ -6,6 +6,8 @@
 
 #include "render/image.h"
 #include "render/raster/gl_objects.h"
+#include "render/raster/lit_pixels.h"
+#include "render/raster/view_range.h"
 
 namespace lagomorph::render::raster {
 
@@ -28,6 +30,15 @@ public:
   void bind_seen_textures() const;
   /// Binds the picture, linear colour, with another depth buffer.
   void bind_color() const { bind(color_target_, width_, height_); }
+  /// A rectangle of a texture like the picture into the picture.
+  void copy_color(const Texture& from, const PixelRectangle&) const;
+  /// Binds the surfaces of one layer, SurfaceTexel, with the picture's depth buffer.
+  void bind_surface() const { bind(surface_target_, width_, height_); }
+  /// Those of a rectangle, which may reach beyond the picture; nothing is there.
+  void read_surface(const PixelRectangle&, std::vector<SurfaceTexel>&) const;
+  /// Makes what was found of lights and sky the texture that the shaders read.
+  void take(const LitPixels&) const;
+  void bind_lit_texture() const;
   /// Binds a channel of one value a pixel, with the picture's depth buffer.
   void bind_depth();
 
@@ -64,10 +75,10 @@ private:
   };
 
   int width_, height_, samples_;
-  Texture seen_, color_, depth_channel_;
+  Texture seen_, color_, surface_, lit_, depth_channel_;
   std::optional<Texture> colors_;
   Renderbuffer seen_depth_, depth_;
-  Framebuffer seen_target_, color_target_, depth_target_;
+  Framebuffer seen_target_, color_target_, surface_target_, depth_target_;
   std::optional<Peels> peels_;
   bool has_depth_channel_ = false;
   std::vector<float> pixels_;

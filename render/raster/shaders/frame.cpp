@@ -20,9 +20,9 @@ layout(std140, binding = 0) uniform Frame {
   mat4 clip_from_world;
   vec4 eye, forward, right, up, viewport;
   vec4 zenith, horizon, background;
-  vec4 ground, ground_at, ground_texture, texture_color, ground_map, shadowed_ground;
+  vec4 ground, ground_at, ground_texture, texture_color, ground_map;
   vec4 sky_map;
-  vec4 counts;
+  vec4 counts, shadow_taps;
   vec4 sky_picture;
   Light lights[4];
   SkyDirection sky_directions[16];
@@ -43,30 +43,16 @@ void pixel_ray(out vec3 origin, out vec3 direction) {
 // Unit vector from a point to the camera.
 vec3 towards_eye(vec3 x) { return eye.w > 0.5 ? -forward.xyz : normalize(eye.xyz - x); }
 
+// Size of a pixel at a depth along the view axis [m].
+float pixel_footprint(float depth) {
+  return 2.0 * length(up.xyz) * viewport.w * (eye.w > 0.5 ? 1.0 : depth);
+}
+
 // The mirrored view, of a normal that is bent as little as needed for v to be above the surface.
 vec3 mirrored_view(vec3 v, vec3 n) {
   const float least = 1e-3;
   float cosine = dot(n, v);
   return reflect(-v, cosine < least ? normalize(n + (least - cosine) * v) : n);
-}
-
-// Number of this pixel in its 2x2 quad, 0..3.
-float quad_index() {
-  vec2 odd = mod(floor(gl_FragCoord.xy), 2.0);
-  return odd.x + 2.0 * odd.y;
-}
-
-// Sum over those of the quad's four pixels that see the same surface as this one, to judge by their depths.
-vec2 quad_sum(vec2 v, float depth, float tolerance) {
-  vec2 to_other = 1.0 - 2.0 * mod(floor(gl_FragCoord.xy), 2.0);
-  vec3 here = vec3(v, depth);
-  vec3 beside = here + to_other.x * dFdxFine(here);
-  vec3 above = here + to_other.y * dFdyFine(here);
-  vec3 across = beside + to_other.y * dFdyFine(beside);
-  v += abs(beside.z - depth) < tolerance ? beside.xy : vec2(0.0);
-  v += abs(above.z - depth) < tolerance ? above.xy : vec2(0.0);
-  v += abs(across.z - depth) < tolerance ? across.xy : vec2(0.0);
-  return v;
 }
 #endif
 )";

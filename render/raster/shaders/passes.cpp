@@ -47,20 +47,6 @@ uniform mat4 clip_from_world;
 void main() { gl_Position = clip_from_world * vec4(position, 1.0); }
 )";
 
-// The square around the disc in 3 x 3 cells; the middle one is `shadowed_ground`, where meshes can hide the
-// lights.
-const char* const ground_vertex = R"(
-uniform int first_cell;
-void main() {
-  int cell = first_cell + gl_InstanceID;
-  if (first_cell == 0 && cell >= 4) ++cell;  // all but the middle
-  ivec2 corner = ivec2(cell % 3, cell / 3) + ivec2(gl_VertexID & 1, gl_VertexID >> 1);
-  vec4 x = vec4(ground_at.x - ground.y, shadowed_ground.xz, ground_at.x + ground.y);
-  vec4 z = vec4(ground_at.z - ground.y, shadowed_ground.yw, ground_at.z + ground.y);
-  gl_Position = clip_from_world * vec4(x[corner.x], ground.x, z[corner.y], 1.0);
-}
-)";
-
 const char* const emitter_vertex = R"(
 uniform int light;
 out vec3 world;
@@ -71,15 +57,6 @@ void main() {
            corner.y * lights[light].up.w * lights[light].up.xyz;
   world = x;
   gl_Position = clip_from_world * vec4(x, 1.0);
-}
-)";
-
-const char* const background_fragment = R"(
-out vec4 color;
-void main() {
-  vec3 origin, direction;
-  pixel_ray(origin, direction);
-  color = vec4(background_radiance(direction), 1.0);
 }
 )";
 
@@ -175,10 +152,6 @@ vec3 direction_of(vec2 p) {
   return normalize(n);
 }
 
-float pixel_footprint(float depth) {
-  return 2.0 * length(up.xyz) * viewport.w * (eye.w > 0.5 ? 1.0 : depth);
-}
-
 struct Sample {
   float depth;
   vec4 normals;  // both, on the octahedron
@@ -236,9 +209,46 @@ void main() {
 }
 )";
 
+// One layer of a pixel, the mean of its samples.
+const char* const layer_point = R"(
+struct LayerPoint {
+  float count;    // its samples
+  float depth;
+  vec4 normals;   // both, on the octahedron
+  uint id;        // 1 + the surface's number
+};
+LayerPoint layer_point(Layers l, int layer) {
+  LayerPoint p = LayerPoint(0.0, 0.0, vec4(0.0), 1u);
+  for (int s = 0; s < SAMPLES; ++s) {
+    if (l.layer[s] != layer) continue;
+    p.count += 1.0;
+    p.depth += l.samples[s].depth;
+    p.normals += l.samples[s].normals;
+    p.id = l.samples[s].id;
+  }
+  p.depth /= max(p.count, 1.0);
+  p.normals /= max(p.count, 1.0);
+  return p;
+}
+)";
+
+// A layer's surface, for the CPU to find what it sees of the lights and the sky: SurfaceTexel of lit_pixels.h.
+const char* const surface_fragment = R"(
+uniform int layer;
+out uvec4 texel;
+void main() {
+  LayerPoint p = layer_point(sort_samples(), layer);
+  Surface surface = surfaces[p.id - 1u];
+  bool lit = p.count > 0.0 && surface.color.w < 0.5;
+  texel = uvec4(floatBitsToUint(p.depth), packSnorm2x16(p.normals.xy), packSnorm2x16(p.normals.zw),
+                lit ? 1u + uint(65534.0 * clamp(surface.finish.x, 0.0, 1.0) + 0.5) : 0u);
+}
+)";
+
 // Lights one layer of the pixel and adds it to what is behind. The first layer makes room for all. Behind the
 // ground, only what its fading edge lets through is seen, instead of the background there.
 const char* const layer_fragment = R"(
+layout(binding = 0) uniform sampler2DArray seen_of_pixel;  // parts seen of four lights, of the sky, and mirrored
 uniform int layer;
 out vec4 color;
 void main() {
@@ -246,16 +256,13 @@ void main() {
   float to_ground;
   if (ground.w < 0.5 || !meet_ground(on_ground, to_ground)) to_ground = 1e30;
   Layers l = sort_samples();
-  float count = 0.0;
+  LayerPoint mean = layer_point(l, layer);
   float before_ground = 0.0;  // of this layer's samples
   float covered = 0.0;        // of all layers' before the ground
 #ifdef PEEL
   float weight_before = 0.0;  // of this layer's samples before and behind the ground
   float weight_behind = 0.0;
 #endif
-  float depth = 0.0;
-  vec4 normals = vec4(0.0);
-  uint id = 1u;
 #ifdef COLORS
   vec4 tint = vec4(0.0);
 #endif
@@ -263,35 +270,34 @@ void main() {
     float before = l.samples[s].depth < to_ground ? 1.0 : 0.0;
     if (l.layer[s] >= 0) covered += before;
     if (l.layer[s] != layer) continue;
-    count += 1.0;
     before_ground += before;
 #ifdef PEEL
     weight_before += before * l.samples[s].weight;
     weight_behind += (1.0 - before) * l.samples[s].weight;
 #endif
-    depth += l.samples[s].depth;
-    normals += l.samples[s].normals;
-    id = l.samples[s].id;
 #ifdef COLORS
     tint += texelFetch(tint_samples, ivec2(gl_FragCoord.xy), s);
 #endif
   }
   vec3 origin, direction;
   pixel_ray(origin, direction);
-  bool there = count > 0.0;
   Point p;
-  p.depth = there ? depth / count : 1e9;  // unlike any neighbour's
-  p.x = origin + (there ? p.depth : 1.0) * direction;
-  p.footprint = pixel_footprint(there ? p.depth : 1.0);
+  p.x = origin + mean.depth * direction;
+  p.normal = direction_of(mean.normals.xy);
   vec3 v = -normalize(direction);
-  p.normal = there ? direction_of(normals.xy / count) : v;
-  p.flat_normal = there ? direction_of(normals.zw / count) : v;
-  Surface surface = surfaces[id - 1u];
+  Surface surface = surfaces[mean.id - 1u];
 #ifdef COLORS
   if (tint.w > 0.0) surface.color.rgb = tint.rgb / tint.w;
 #endif
-  SkySeen sky = sky_seen(p.x, p.normal, mirrored_view(v, p.normal), surface.finish.x);
-  vec3 lit = shade(p, v, surface, sky, radiance_from_below(p.x));
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  SkySeen sky;
+  sky.diffuse = texelFetch(seen_of_pixel, ivec3(pixel, 1), 0).rgb;
+#ifdef SKY_MAP
+  sky.mirrored = texelFetch(seen_of_pixel, ivec3(pixel, 2), 0).rgb;
+#else
+  sky.mirrored = sky.diffuse;
+#endif
+  vec3 lit = shade(p, v, surface, texelFetch(seen_of_pixel, ivec3(pixel, 0), 0), sky, radiance_from_below(p.x));
 #ifdef PEEL
   color = vec4(weight_before * lit, weight_before);
   if (weight_behind > 0.0)
@@ -301,116 +307,9 @@ void main() {
 #endif
   if (surface.color.w > 0.5) lit = surface.color.rgb;
   color.rgb = before_ground * lit;
-  if (before_ground < count)
-    color.rgb += (count - before_ground) * ground_fade(on_ground) * (lit - background_radiance(direction));
+  if (before_ground < mean.count)
+    color.rgb += (mean.count - before_ground) * ground_fade(on_ground) * (lit - background_radiance(direction));
   color = vec4(color.rgb, layer == 0 ? covered : 0.0) / float(SAMPLES);
-}
-)";
-
-// Where this pixel's ray meets the ground's plane; false where it does not.
-const char* const ground_point = R"(
-bool meet_ground(out vec3 x, out float depth) {
-  vec3 origin, direction;
-  pixel_ray(origin, direction);
-  depth = (ground.x - origin.y) / direction.y;
-  bool met = depth > 0.0 && depth < 1e9;
-  x = origin + (met ? depth : 0.0) * direction;
-  x.y = ground.x;
-  return met;
-}
-float ground_distance(vec3 x) { return length(x.xz - ground_at.xz); }
-float ground_fade(vec3 x) {
-  float t = clamp((ground_distance(x) - ground.z) / (ground.y - ground.z), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
-)";
-
-// The ground's colour, the mean over a square of `width` around x; see ground_texture.h.
-const char* const ground_color = R"(
-// The integral from 0 to x of what is 1 on lines of that width at multiples of `period` and 0 elsewhere.
-vec2 lines_up_to(vec2 x, float period, float line) {
-  vec2 k = floor(x / period + 0.5);
-  return k * line + clamp(x - k * period, -0.5 * line, 0.5 * line);
-}
-vec2 on_lines(vec2 x, vec2 width, float period, float line) {
-  line = min(line, period);
-  return (lines_up_to(x + 0.5 * width, period, line) - lines_up_to(x - 0.5 * width, period, line)) / width;
-}
-vec3 ground_color_at(vec3 x, vec2 width) {
-  vec3 plain = surfaces[0].color.rgb;
-  if (ground_texture.x < 0.5) return plain;
-  float size = ground_texture.y;
-  width = max(width, vec2(1e-4 * size));
-  float part;
-  if (ground_texture.x < 1.5) {
-    // Squares are bands of the two directions' signs, whose means multiply.
-    vec2 odd = on_lines(x.xz - 0.5 * size, width, 2.0 * size, size);
-    vec2 mean_sign = 1.0 - 2.0 * odd;
-    part = 0.5 - 0.5 * mean_sign.x * mean_sign.y;
-  } else {
-    vec2 fine = on_lines(x.xz, width, size, ground_texture.z);
-    vec2 metres = on_lines(x.xz, width, 1.0, 3.0 * ground_texture.z);
-    vec2 line = max(fine, metres);
-    part = 1.0 - (1.0 - line.x) * (1.0 - line.y);
-  }
-  return mix(plain, texture_color.rgb, part);
-}
-)";
-
-const char* const ground_fragment = R"(
-out vec4 color;
-void main() {
-  Point p;
-  bool met = meet_ground(p.x, p.depth);
-  vec3 v = towards_eye(p.x);
-  p.normal = vec3(0.0, v.y > 0.0 ? 1.0 : -1.0, 0.0);
-  p.flat_normal = p.normal;
-  p.footprint = 2.0 * length(up.xyz) * viewport.w * (eye.w > 0.5 ? 1.0 : p.depth);
-  p.depth = 0.0;  // all pixels here see the same plane
-  vec2 at = ground_map_at(p.x);
-  vec3 seen = vec3(1.0);
-  if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)))) seen = ground_seen(at);
-  Surface surface = surfaces[0];
-  // As wide as the path tracer's filter: a box of the same variance.
-  vec2 over_x = dFdx(p.x.xz), over_y = dFdy(p.x.xz);
-  surface.color.rgb = ground_color_at(p.x, 1.35 * sqrt(over_x * over_x + over_y * over_y));
-#ifdef SKY_MAP
-  vec4 below = vec4(p.normal.y > 0.0 ? open_sky(p.normal) / PI : open_below(p.normal), 1.0);
-#else
-  vec4 below = vec4(horizon.rgb, 1.0);
-#endif
-  color = vec4(shade(p, v, surface, SkySeen(seen, seen), below), met ? 1.0 - ground_fade(p.x) : 0.0);
-}
-)";
-
-// Depth only, to hide what is below; the part that fades is none of its business.
-const char* const ground_cover_fragment = R"(
-void main() {
-  vec3 x;
-  float depth;
-  if (!meet_ground(x, depth) || ground_distance(x) > ground.z) discard;
-}
-)";
-
-// On the square of ground under the meshes: the part of the sky that is seen, and the radiance sent up.
-const char* const ground_map_fragment = R"(
-layout(location = 0) out vec4 ambient;
-layout(location = 1) out vec4 bounce;
-void main() {
-  vec2 at = gl_FragCoord.xy / counts.w;
-  vec3 x = vec3((at.x - ground_map.z) / ground_map.x, ground.x, (at.y - ground_map.w) / ground_map.x);
-  vec3 n = vec3(0.0, 1.0, 0.0);
-  vec3 seen = sky_seen_softly(x, n);
-  // Outside of the map all is seen; meet that at its border.
-  vec2 edge = smoothstep(0.0, 0.1, min(at, 1.0 - at));
-  seen = mix(vec3(1.0), seen, edge.x * edge.y);
-  vec3 light = seen * open_sky(n);
-  for (int i = 0; i < int(counts.x); ++i) {
-    vec3 direction;
-    light += lights[i].radiance.rgb * rectangle_irradiance(lights[i], x, n, direction) * light_visibility(i, x, n, 0.0, ground_map.y);
-  }
-  ambient = vec4(seen, 1.0);
-  bounce = vec4((1.0 - surfaces[0].finish.y) * ground_color_at(x, vec2(ground_map.y)) / PI * light, 1.0);
 }
 )";
 
@@ -455,14 +354,6 @@ in vec3 smooth_normal;
 uniform uint surface;
 out float number;
 void main() { number = float(surface); }
-)";
-
-const char* const ground_depth_fragment = R"(
-out float depth;
-void main() {
-  vec3 x;
-  if (!meet_ground(x, depth) || ground_distance(x) > ground.y) discard;
-}
 )";
 
 }  // namespace lagomorph::render::raster::shaders

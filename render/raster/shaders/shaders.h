@@ -5,13 +5,12 @@ namespace lagomorph::render::raster::shaders {
 
 extern const char* const frame;   // the Frame block, camera rays, the quad's mean
 extern const char* const brdf;    // GGX coat over Lambert, a rectangle's light on it
-extern const char* const shadow;  // how much of a light is seen from a point
-extern const char* const sky;     // the sky's light on a point, with what hides it
+extern const char* const sky;     // the sky's light on a point
 extern const char* const shade;   // all of it together
-extern const char* const ground_color;
 extern const char* const ground_point;  // where a pixel sees the ground
-
-extern const char* const layers;  // the samples of a pixel, sorted by surface
+extern const char* const ground_color;
+extern const char* const layers;       // the samples of a pixel, sorted by surface
+extern const char* const layer_point;  // the mean of one of those
 
 extern const char* const full_screen_vertex;
 extern const char* const layer_vertex;
@@ -20,11 +19,13 @@ extern const char* const depth_map_vertex;
 extern const char* const ground_vertex;
 extern const char* const emitter_vertex;
 
-extern const char* const background_fragment;
 extern const char* const seen_fragment;
+extern const char* const still_fragment;
+extern const char* const tiles_vertex;
+extern const char* const taken_fragment;
 extern const char* const count_fragment;
+extern const char* const surface_fragment;
 extern const char* const layer_fragment;
-extern const char* const ground_fragment;
 extern const char* const ground_cover_fragment;
 extern const char* const ground_map_fragment;
 extern const char* const depth_map_fragment;

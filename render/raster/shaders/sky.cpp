@@ -3,10 +3,8 @@
 namespace lagomorph::render::raster::shaders {
 
 // The sky's light is a table by the normal's height (sky_model.h), or of a map of the sky (SKY_MAP,
-// sky_light.h) cubes by direction, times the part of it that the meshes leave, seen through depth maps from
-// directions over the sky. From below comes what the ground reflects, or the horizon, or the map.
+// sky_light.h) cubes by direction, times the part of it that the meshes leave (visibility.h). From below comes what the ground reflects, or the horizon, or the map.
 const char* const sky = R"(
-layout(binding = 1) uniform sampler2DArray sky_maps;
 layout(binding = 2) uniform sampler2D sky_table;
 layout(binding = 3) uniform sampler2D ground_ambient;
 layout(binding = 4) uniform sampler2D ground_bounce;
@@ -64,127 +62,31 @@ vec3 open_sky(vec3 n) {
 }
 #endif
 
-// A point and its normal, seen along one direction of the sky; lengths in radii of the meshes' sphere.
-struct Sightline {
-  vec3 at, normal;
-};
-Sightline sightline(int i, vec3 x, vec3 n) {
-  SkyDirection sky = sky_directions[i];
-  vec3 at = (x - sky_map.xyz) * sky_map.w;
-  return Sightline(vec3(dot(at, sky.right.xyz), dot(at, sky.up.xyz), dot(at, sky.direction.xyz)),
-                   vec3(dot(n, sky.right.xyz), dot(n, sky.up.xyz), dot(n, sky.direction.xyz)));
-}
-
-// What hides the sky through a point of a direction's map, bilinear over four texels: how much, and that times how far
-// above the receiver. The same test as for the lights.
-vec2 hidden_through(int i, Sightline from, vec2 through) {
-  float size = float(textureSize(sky_maps, 0).x);
-  vec2 g = (0.5 * through + 0.5) * size - 0.5;
-  vec2 corner = floor(g);
-  vec2 f = g - corner;
-  vec4 depth = textureGather(sky_maps, vec3((corner + 1.0) / size, float(i)));
-  vec4 rise = mix(1.0 - 2.0 * depth, vec4(-1e9), greaterThanEqual(depth, vec4(1.0))) - from.at.z;
-  vec2 low = through - from.at.xy - f * 2.0 / size;
-  vec2 high = low + 2.0 / size;
-  vec4 above = from.normal.x * vec4(low.x, high.x, high.x, low.x) +
-               from.normal.y * vec4(high.y, high.y, low.y, low.y) + from.normal.z * rise;
-  float least = 0.004;
-  vec4 hides = vec4(greaterThan(min(rise, above), vec4(least)));
-  vec4 weight = vec4(f.y, f.y, 1.0 - f.y, 1.0 - f.y) * vec4(1.0 - f.x, f.x, f.x, 1.0 - f.x);
-  return vec2(dot(weight, hides), dot(weight, hides * max(rise, 0.0)));
-}
-
 // Part of the sky's light that the meshes leave: of open_sky(), and of what is mirrored.
 struct SkySeen {
   vec3 diffuse, mirrored;
 };
 
-#ifdef SKY_MAP
-// Mirrored: of a lobe around r, no narrower than a direction's part of the sky.
-SkySeen sky_seen(vec3 x, vec3 n, vec3 r, float roughness) {
-  SkySeen total = SkySeen(vec3(1e-6), vec3(1e-6));
-  SkySeen seen = total;
-  float sharpness = mix(12.0, 2.0, roughness);
-  int count = int(counts.z);
-  for (int i = 0; i < count; ++i) {
-    Sightline from = sightline(i, x, n);
-    float open = 1.0 - hidden_through(i, from, from.at.xy).x;
-    vec3 light = max(from.normal.z, 0.0) * sky_directions[i].radiance.rgb;
-    total.diffuse += light;
-    seen.diffuse += light * open;
-    light = exp(sharpness * (dot(r, sky_directions[i].direction.xyz) - 1.0)) * smoothstep(0.0, 0.2, from.normal.z) *
-            sky_directions[i].radiance.rgb;
-    total.mirrored += light;
-    seen.mirrored += light * open;
-  }
-  return SkySeen(seen.diffuse / total.diffuse, seen.mirrored / total.mirrored);
-}
-#else
-SkySeen sky_seen(vec3 x, vec3 n, vec3 r, float roughness) {
-  vec3 total = vec3(1e-6);
-  vec3 seen = vec3(1e-6);
-  int count = int(counts.z);
-  for (int i = 0; i < count; ++i) {
-    Sightline from = sightline(i, x, n);
-    vec3 light = max(from.normal.z, 0.0) * sky_directions[i].radiance.rgb;
-    total += light;
-    seen += light * (1.0 - hidden_through(i, from, from.at.xy).x);
-  }
-  seen /= total;
-  return SkySeen(seen, seen);
-}
-#endif
-
-#ifdef FRAGMENT
-// The same where a plane would show the edges of each direction's shadow: a direction stands for all within some 20
-// degrees of it, and what hides it is looked for, then measured, within the spread that they have at its distance.
-vec3 sky_seen_softly(vec3 x, vec3 n) {
-#ifndef SKY_MAP
-  const float spread = 0.36;
-#endif
-  const int taps = 4;
-  vec3 total = vec3(1e-6);
-  vec3 seen = vec3(1e-6);
-  int count = int(counts.z);
-  for (int i = 0; i < count; ++i) {
-    Sightline from = sightline(i, x, n);
-#ifdef SKY_MAP
-    float spread = sky_directions[i].direction.w;
-#endif
-    float turns = 0.25 * quad_index();
-    float angle = 2.3999632 * (float(i) + turns);
-    vec2 turn = vec2(cos(angle), sin(angle));
-    vec2 found = hidden_through(i, from, from.at.xy);
-    float reach = 0.5 * spread * max(1.0 - from.at.z, 0.0);
-    vec2 offset = reach * turn;
-    for (int k = 0; k < 4; ++k) {
-      found += hidden_through(i, from, from.at.xy + offset);
-      offset = vec2(-offset.y, offset.x);
-    }
-    reach = spread * found.y / max(found.x, 1e-6);
-    float hidden = 0.0;
-    for (int k = 0; k < taps; ++k) {
-      hidden += hidden_through(i, from, from.at.xy + reach * sqrt((float(k) + 0.125 + turns) / float(taps)) * turn).x;
-      turn = vec2(-0.7373688 * turn.x - 0.6754902 * turn.y, 0.6754902 * turn.x - 0.7373688 * turn.y);
-    }
-    vec3 light = max(from.normal.z, 0.0) * sky_directions[i].radiance.rgb;
-    total += light;
-    seen += light * (1.0 - hidden / float(taps));
-  }
-  return seen / total;
-}
-#endif
-
 vec2 ground_map_at(vec3 x) { return x.xz * ground_map.x + ground_map.zw; }
 
-// Part of the sky that a place of the ground's map sees. The mean over half a texel to all sides counts the four pixels of
-// a quad alike, wherever it is, so that nothing is left of their different points.
+// Part of the sky that a place of the ground's map sees; all of it beyond. The mean over half a texel to all sides counts
+// the four pixels of a quad alike, wherever it is, so that nothing is left of their different points.
 vec3 ground_seen(vec2 at) {
+  if (any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0)))) return vec3(1.0);
   float half_texel = 0.5 / counts.w;
   vec3 sum = vec3(0.0);
   for (int k = 0; k < 4; ++k)
     sum += texture(ground_ambient, at + half_texel * (2.0 * vec2(k & 1, k >> 1) - 1.0)).rgb;
   return 0.25 * sum;
+}
+
+// Mean radiance from below the horizon on the ground itself, see radiance_from_below().
+vec4 radiance_below_ground(vec3 n) {
+#ifdef SKY_MAP
+  return vec4(n.y > 0.0 ? open_sky(n) / PI : open_below(n), 1.0);
+#else
+  return vec4(horizon.rgb, 1.0);
+#endif
 }
 
 // Mean radiance from below the horizon: the ground's, averaged over about the point's height above it, or beyond
@@ -216,66 +118,100 @@ layout(binding = 5) uniform sampler2D coat_table;  // scale and offset of the co
 float into_base(Coat coat, vec2 albedo) { return 1.0 - dot(coat.dielectric, albedo); }
 
 struct Point {
-  vec3 x;            // [m]
-  vec3 normal;       // to shade with
-  vec3 flat_normal;  // of the triangle
-  float depth;       // along the view axis [m]
-  float footprint;   // size of a pixel there [m]
+  vec3 x;       // [m]
+  vec3 normal;  // to shade with
 };
 
-// Radiance towards v of a surface under all lights and the sky, of which the part `sky` is seen. `below` is the mean
-// radiance from under the horizon, see radiance_from_below().
-vec3 shade(Point p, vec3 v, Surface surface, SkySeen sky, vec4 below) {
-  Coat coat = make_coat(surface);
-  vec3 x = p.x;
-  vec3 n = p.normal;
-  float nv = clamp(dot(n, v), 1e-3, 1.0);
-  vec4 at_eye = texture(coat_table, vec2(nv, coat.roughness));
-  vec2 split = at_eye.rg;
-  float out_of_base = into_base(coat, split);
-  float mean_into_base = into_base(coat, at_eye.ba);
-  vec3 radiance = vec3(0.0);
-  int count = int(counts.x);
-  for (int i = 0; i < count; ++i) {
-    vec3 direction;
-    float irradiance = rectangle_irradiance(lights[i], x, n, direction);
-#ifdef SHADOWS
-    float visibility = light_visibility(i, x, p.flat_normal, p.depth, p.footprint);
-#else
-    float visibility = 1.0;
-#endif
-    vec4 at_light = texture(coat_table, vec2(clamp(dot(n, direction), 0.0, 1.0), coat.roughness));
-    vec3 reflected = coat.diffuse * (out_of_base * into_base(coat, at_light.rg) / (PI * mean_into_base) * irradiance);
-    reflected += rectangle_reflection(lights[i], x, n, v, nv, coat);
-    radiance += visibility * lights[i].radiance.rgb * reflected;
-  }
+// A surface as it is seen from one direction.
+struct Finish {
+  Coat coat;
+  vec3 mirrors;          // the coat's albedo
+  float nv;              // cosine of the view's angle
+  float out_of_base;     // see into_base()
+  float mean_into_base;
+};
+Finish finish_of(Surface surface, vec3 n, vec3 v) {
+  Finish f;
+  f.coat = make_coat(surface);
+  f.nv = clamp(dot(n, v), 1e-3, 1.0);
+  vec4 at_eye = texture(coat_table, vec2(f.nv, f.coat.roughness));
+  f.mirrors = f.coat.f0 * at_eye.r + f.coat.f90 * at_eye.g;
+  f.out_of_base = into_base(f.coat, at_eye.rg);
+  f.mean_into_base = into_base(f.coat, at_eye.ba);
+  return f;
+}
 
-  // What hides the sky is lit as this point is and of its colour.
-  vec3 open = open_sky(n);
+// Radiance towards v of a light that nothing hides.
+vec3 sent_of_light(int i, Finish f, Point p, vec3 v) {
+  vec3 direction;
+  float irradiance = rectangle_irradiance(lights[i], p.x, p.normal, direction);
+  vec4 at_light = texture(coat_table, vec2(clamp(dot(p.normal, direction), 0.0, 1.0), f.coat.roughness));
+  vec3 reflected =
+      f.coat.diffuse * (f.out_of_base * into_base(f.coat, at_light.rg) / (PI * f.mean_into_base) * irradiance);
+  reflected += rectangle_reflection(lights[i], p.x, p.normal, v, f.nv, f.coat);
+  return lights[i].radiance.rgb * reflected;
+}
+
+// Irradiance from under the horizon; `below` is the mean radiance there, see radiance_from_below().
+vec3 light_from_below(vec3 n, vec4 below) {
 #ifdef SKY_MAP
-  vec3 from_below = 0.5 * PI * (1.0 - n.y) * mix(open_below(n), below.rgb, below.w);
+  return 0.5 * PI * (1.0 - n.y) * mix(open_below(n), below.rgb, below.w);
 #else
-  vec3 from_below = 0.5 * PI * (1.0 - n.y) * below.rgb;
+  return 0.5 * PI * (1.0 - n.y) * below.rgb;
 #endif
-  vec3 seen = sky.diffuse;
-  vec3 hidden = open * (1.0 - seen) / (open + from_below + 1e-6);
-  vec3 ambient = (open * seen + from_below) / max(1.0 - hidden * coat.diffuse, 0.05);
-  radiance += coat.diffuse / PI * ambient * out_of_base;
+}
 
-  float roughness = coat.roughness;
+// Irradiance of the sky, of which the part `seen` is, and from below. What hides the sky is lit as this point is and of
+// its colour.
+vec3 ambient_light(vec3 open, vec3 seen, vec3 from_below, vec3 albedo) {
+  vec3 hidden = open * (1.0 - seen) / (open + from_below + 1e-6);
+  return (open * seen + from_below) / max(1.0 - hidden * albedo, 0.05);
+}
+
+// What comes from all around: irradiance from above and below, and radiance in the coat's mirror, of the sky, of a mesh
+// before it over the light on that, and from below.
+struct SkyLight {
+  vec3 open, from_below;
+  vec3 mirrored, mirrored_mesh, mirrored_below;
+};
+SkyLight sky_light(Finish f, vec3 n, vec3 v, vec4 below) {
+  SkyLight sky;
+  sky.open = open_sky(n);
+  sky.from_below = light_from_below(n, below);
+  float roughness = f.coat.roughness;
 #ifdef SKY_MAP
   vec3 r = mirrored_view(v, n);
   float level = float(textureQueryLevels(sky_lobes_above) - 1) * roughness;
   vec4 above = textureLod(sky_lobes_above, r, level);
-  vec3 beneath = mix(textureLod(sky_lobes_below, r, level).rgb, (1.0 - above.w) * below.rgb, below.w);
-  vec3 itself = above.w * (1.0 - sky.mirrored) * (coat.diffuse + coat.f0) * ambient / PI;  // what hides the sky, as above
-  radiance += (coat.f0 * split.x + coat.f90 * split.y) * (above.rgb * sky.mirrored + itself + beneath);
+  sky.mirrored = above.rgb;
+  sky.mirrored_mesh = above.w * (f.coat.diffuse + f.coat.f0) / PI;
+  sky.mirrored_below = mix(textureLod(sky_lobes_below, r, level).rgb, (1.0 - above.w) * below.rgb, below.w);
 #else
   vec3 r = reflect(-v, n);
   vec3 mirrored = mix(below.rgb, sky_radiance(r), smoothstep(-roughness, roughness + 1e-3, r.y));
   vec3 rough = (open_sky(r) + 0.5 * PI * (1.0 - r.y) * below.rgb) / PI;
-  radiance += (coat.f0 * split.x + coat.f90 * split.y) * mix(mirrored, rough, roughness) * sky.mirrored;
+  sky.mirrored = mix(mirrored, rough, roughness);
+  sky.mirrored_mesh = vec3(0.0);
+  sky.mirrored_below = vec3(0.0);
 #endif
+  return sky;
+}
+
+// Radiance towards the viewer of the light from all around, of which the meshes leave the part `seen`.
+vec3 sent_of_sky(Finish f, SkyLight sky, SkySeen seen) {
+  vec3 ambient = ambient_light(sky.open, seen.diffuse, sky.from_below, f.coat.diffuse);
+  vec3 in_mirror = sky.mirrored * seen.mirrored + sky.mirrored_mesh * (1.0 - seen.mirrored) * ambient + sky.mirrored_below;
+  return f.coat.diffuse / PI * ambient * f.out_of_base + f.mirrors * in_mirror;
+}
+
+// Radiance towards v of a surface under all lights and the sky, of which these parts are seen.
+vec3 shade(Point p, vec3 v, Surface surface, vec4 lights_seen, SkySeen seen, vec4 below) {
+  Finish f = finish_of(surface, p.normal, v);
+  vec3 radiance = sent_of_sky(f, sky_light(f, p.normal, v, below), seen);
+  int count = int(counts.x);
+  for (int i = 0; i < count; ++i) {
+    radiance += lights_seen[i] * sent_of_light(i, f, p, v);
+  }
   return radiance;
 }
 )";

@@ -64,50 +64,5 @@ TEST(LightView, MeetsNothingBehindTheLight) {
   EXPECT_EQ(fit_light_view(some_light(), {}, 1024).depth, Vec4::Zero().eval());
 }
 
-TEST(LightView, ShadowedGroundHoldsAllThatIsHidden) {
-  RenderScene scene = empty_scene();
-  scene.ground.enabled = true;
-  scene.ground.height = -0.2F;
-  scene.lights = {some_light()};
-  const Eigen::AlignedBox3f box(Vec3(-0.3F, 0.1F, -0.2F), Vec3(0.2F, 0.9F, 0.4F));
-  const Vec4 hidden = shadowed_ground(scene, box);
-  const LightFrame frame = light_frame(scene.lights[0]);
-  float left = 1e9F;
-  float front = -1e9F;
-  for (int i = 0; i <= 10; ++i) {
-    for (int k = 0; k <= 10; ++k) {
-      const Vec3 from = scene.lights[0].position +
-                        (0.1F * static_cast<float>(i) - 0.5F) * 0.8F * frame.right +
-                        (0.1F * static_cast<float>(k) - 0.5F) * 0.5F * frame.up;
-      for (int j = 0; j < 1000; ++j) {
-        const Vec3 t(static_cast<float>(j % 10) / 9.0F, static_cast<float>(j / 10 % 10) / 9.0F,
-                     static_cast<float>(j / 100) / 9.0F);
-        const Vec3 p = box.min() + t.cwiseProduct(box.sizes());
-        const Vec3 x = p + (from - p) * ((scene.ground.height - p.y()) / (from.y() - p.y()));
-        EXPECT_TRUE(x.x() >= hidden[0] - 1e-4F && x.x() <= hidden[2] + 1e-4F && x.z() >= hidden[1] - 1e-4F &&
-                    x.z() <= hidden[3] + 1e-4F)
-            << x.transpose();
-        left = std::min(left, x.x());
-        front = std::max(front, x.z());
-      }
-    }
-  }
-  EXPECT_NEAR(hidden[0], left, 1e-4F);
-  EXPECT_NEAR(hidden[3], front, 1e-4F);
-}
-
-TEST(LightView, ALowLightShadowsAllTheGround) {
-  RenderScene scene = empty_scene();
-  scene.ground.enabled = true;
-  scene.ground.radius = 5.0F;
-  scene.lights = {some_light()};
-  scene.lights[0].position.y() = 0.8F;
-  const Vec4 hidden = shadowed_ground(scene, {Vec3(-0.3F, 0.1F, -0.2F), Vec3(0.2F, 0.9F, 0.4F)});
-  EXPECT_EQ(hidden, Vec4(-5.0F, -5.0F, 5.0F, 5.0F));
-  scene.lights.clear();
-  const Vec4 none = shadowed_ground(scene, {Vec3(-0.3F, 0.1F, -0.2F), Vec3(0.2F, 0.9F, 0.4F)});
-  EXPECT_EQ(none, Vec4::Zero().eval());
-}
-
 }  // namespace light_view_test
 }  // namespace lagomorph::render::raster

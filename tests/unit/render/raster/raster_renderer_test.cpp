@@ -224,6 +224,20 @@ TEST(RasterRenderer, DrawsTheSameBytesEachTime) {
   EXPECT_EQ(hash(draw(scene, three_quarter(), settings)), second);
 }
 
+TEST(RasterRenderer, ACameraThatMovesSeesWhatAnotherRendererWould) {
+  const RenderSettings settings = small_settings();
+  const auto renderer = make_raster_renderer(settings, 2);
+  renderer->set_scene(lively_scene());
+  CameraSettings camera = three_quarter();
+  for (int i = 0; i < 3; ++i) {
+    camera.position.x() += 0.1F * static_cast<float>(i % 2);
+    camera.fov += static_cast<float>(i / 2);
+    EXPECT_EQ(hash(renderer->render(Camera(camera, settings.width, settings.height), {})),
+              hash(draw(lively_scene(), camera, settings)))
+        << i;
+  }
+}
+
 TEST(RasterRenderer, ASceneAfterAnotherLeavesNoTrace) {
   const RenderSettings settings = small_settings();
   const Camera camera(three_quarter(), settings.width, settings.height);

@@ -1,0 +1,263 @@
+#include "render/raster/lit_pixels.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace lagomorph::render::raster {
+namespace {
+
+constexpr Parts whole = {65535, 65535, 65535, 65535};
+
+std::uint16_t fraction(float x) {
+  return static_cast<std::uint16_t>(std::clamp(x, 0.0F, 1.0F) * 65535.0F + 0.5F);
+}
+
+/// Of a lane in its block, from the lower left.
+int column(int lane) { return 2 * (lane / 4) + (lane & 1); }
+int row(int lane) { return (lane >> 1) & 1; }
+
+/// As pixel_footprint() of the shaders.
+float pixel_footprint(const FrameBlock& frame, float depth) {
+  return 2.0F * frame.up.head<3>().norm() * frame.viewport[3] * (frame.eye.w() > 0.5F ? 1.0F : depth);
+}
+
+/// Two fractions in [-1, 1], see packSnorm2x16.
+Vec2 unpacked(std::uint32_t bits) {
+  const auto part = [](std::uint32_t half) {
+    return std::max(static_cast<float>(static_cast<std::int16_t>(half & 0xffffU)) / 32767.0F, -1.0F);
+  };
+  return {part(bits), part(bits >> 16U)};
+}
+
+/// As direction_of() of the shaders [Meyer et al. 2010].
+Vec3 direction_of(const Vec2& p) {
+  Vec3 n(p.x(), p.y(), 1.0F - std::abs(p.x()) - std::abs(p.y()));
+  if (n.z() < 0.0F) {
+    n.x() = std::copysign(1.0F - std::abs(p.y()), p.x());
+    n.y() = std::copysign(1.0F - std::abs(p.x()), p.y());
+  }
+  return n.normalized();
+}
+
+/// As mirrored_view() of the shaders.
+Vec3 mirrored_view(const Vec3& v, const Vec3& normal) {
+  constexpr float least = 1e-3F;
+  const float cosine = normal.dot(v);
+  const Vec3 n = cosine < least ? Vec3((normal + (least - cosine) * v).normalized()) : normal;
+  return 2.0F * n.dot(v) * n - v;
+}
+
+void clear(Receivers& r, int lane) {
+  const auto l = static_cast<std::size_t>(lane);
+  r.there[l] = 0;
+  r.point.set(lane, Vec3::Zero());
+  for (Lanes3* n : {&r.flat_normal, &r.normal, &r.mirrored}) n->set(lane, Vec3::UnitY());
+  r.roughness[l] = 1.0F;
+  r.depth[l] = 1e9F;  // unlike any neighbour's
+  r.footprint[l] = 1.0F;
+}
+
+/// A point of the ground; all see the same plane.
+void put_ground(Receivers& r, int lane, const Vec3& point, float normal_y, float footprint) {
+  const auto l = static_cast<std::size_t>(lane);
+  r.there[l] = 1;
+  r.point.set(lane, point);
+  for (Lanes3* n : {&r.flat_normal, &r.normal, &r.mirrored}) n->set(lane, Vec3(0.0F, normal_y, 0.0F));
+  r.depth[l] = 0.0F;
+  r.footprint[l] = footprint;
+}
+
+void ground_receivers(const FrameBlock& frame, int x, int y, Receivers& r) {
+  for (int lane = 0; lane < lanes; ++lane) {
+    clear(r, lane);
+    const std::optional<GroundPoint> ground = ground_at_pixel(
+        frame, static_cast<float>(x + column(lane)) + 0.5F, static_cast<float>(y + row(lane)) + 0.5F);
+    if (!ground) continue;
+    const bool above = frame.eye.w() > 0.5F ? frame.forward.y() < 0.0F : frame.eye.y() > ground->point.y();
+    put_ground(r, lane, ground->point, above ? 1.0F : -1.0F, pixel_footprint(frame, ground->depth));
+  }
+}
+
+void ground_map_receivers(const FrameBlock& frame, int x, int y, Receivers& r) {
+  const Vec4& map = frame.ground_map;
+  for (int lane = 0; lane < lanes; ++lane) {
+    clear(r, lane);
+    const Vec2 at =
+        Vec2(static_cast<float>(x + column(lane)) + 0.5F, static_cast<float>(y + row(lane)) + 0.5F) /
+        frame.counts[3];
+    put_ground(r, lane, Vec3((at.x() - map[2]) / map[0], frame.ground.x(), (at.y() - map[3]) / map[0]), 1.0F,
+               map[1]);
+  }
+}
+
+/// Returns false where no surface is in the block.
+bool surface_receivers(const FrameBlock& frame, bool with_mirrored, const PixelRectangle& rectangle,
+                       std::span<const SurfaceTexel> texels, int x, int y, Receivers& r) {
+  bool any = false;
+  for (int lane = 0; lane < lanes; ++lane) {
+    clear(r, lane);
+    const int px = x + column(lane), py = y + row(lane);
+    const SurfaceTexel& t = texels[static_cast<std::size_t>(py) * static_cast<std::size_t>(rectangle.width) +
+                                   static_cast<std::size_t>(px)];
+    if (t.finish == 0) continue;
+    any = true;
+    const auto l = static_cast<std::size_t>(lane);
+    const PixelRay ray = pixel_ray(frame, static_cast<float>(rectangle.x + px) + 0.5F,
+                                   static_cast<float>(rectangle.y + py) + 0.5F);
+    const auto depth = std::bit_cast<float>(t.depth);
+    r.there[l] = 1;
+    r.point.set(lane, ray.origin + depth * ray.direction);
+    r.flat_normal.set(lane, direction_of(unpacked(t.flat_normal)));
+    const Vec3 normal = direction_of(unpacked(t.normal));
+    r.normal.set(lane, normal);
+    if (with_mirrored) r.mirrored.set(lane, mirrored_view(-ray.direction.normalized(), normal));
+    r.roughness[l] = static_cast<float>(t.finish - 1U) / 65534.0F;
+    r.depth[l] = depth;
+    r.footprint[l] = pixel_footprint(frame, depth);
+  }
+  return any;
+}
+
+/// Calls block(x, y) for the corners of all blocks of a rectangle of whole ones, rows of them at a time.
+template <class Block>
+void for_blocks(int width, int height, const Block& block) {
+  tbb::parallel_for(tbb::blocked_range<int>(0, height / block_height, 4), [&](const auto& rows) {
+    for (int k = rows.begin(); k != rows.end(); ++k) {
+      for (int x = 0; x < width; x += block_width) block(x, k * block_height);
+    }
+  });
+}
+
+std::size_t pixel_of(const PixelRectangle& at, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(at.width) + static_cast<std::size_t>(x);
+}
+
+/// The lights of one block, those whose bit is set.
+void put_lights(const FrameBlock& frame, const DepthMaps& maps, const Receivers& r, std::uint32_t which,
+                int x, int y, LitPixels& lit) {
+  Lanes seen;
+  for (std::size_t i = 0; i < maps.lights.size(); ++i) {
+    if ((which >> i & 1U) == 0) continue;
+    light_visibility(frame, maps, static_cast<int>(i), r, seen);
+    for (int lane = 0; lane < lanes; ++lane)
+      lit.lights[pixel_of(lit.at, x + column(lane), y + row(lane))][i] =
+          fraction(seen[static_cast<std::size_t>(lane)]);
+  }
+}
+
+void put_sky(const Lanes3& seen, const PixelRectangle& at, int x, int y, std::vector<Parts>& parts) {
+  for (int lane = 0; lane < lanes; ++lane) {
+    const Vec3 v = seen.at(lane);
+    parts[pixel_of(at, x + column(lane), y + row(lane))] = {fraction(v.x()), fraction(v.y()), fraction(v.z()),
+                                                            65535};
+  }
+}
+
+std::size_t area(const PixelRectangle& r) {
+  return static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height);
+}
+
+constexpr std::uint32_t all_lights = ~0U;
+
+}  // namespace
+
+PixelRectangle whole_blocks(const PixelRectangle& r) {
+  const auto down = [](int x, int step) { return x / step * step; };
+  const auto up = [](int x, int step) { return (x + step - 1) / step * step; };
+  const int x = down(r.x, block_width), y = down(r.y, block_height);
+  return {x, y, up(r.x + r.width, block_width) - x, up(r.y + r.height, block_height) - y};
+}
+
+void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<const TileRun> runs,
+                  LitPixels& lit) {
+  int left = 1 << 30, lower = left, right = 0, upper = 0;
+  for (const TileRun& run : runs) {
+    if (run.lights_hidden == 0) continue;
+    left = std::min(left, static_cast<int>(run.left));
+    lower = std::min(lower, static_cast<int>(run.lower));
+    right = std::max(right, static_cast<int>(run.right));
+    upper = std::max(upper, static_cast<int>(run.upper));
+  }
+  lit.at = right > left ? PixelRectangle{left, lower, right - left, upper - lower} : PixelRectangle{};
+  lit.lights.assign(area(lit.at), whole);
+  lit.diffuse.clear();
+  lit.mirrored.clear();
+  tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t k) {
+    const TileRun& run = runs[k];
+    if (run.lights_hidden == 0) return;
+    Receivers r;
+    const int x0 = static_cast<int>(run.left), x1 = static_cast<int>(run.right);
+    const int y0 = static_cast<int>(run.lower), y1 = static_cast<int>(run.upper);
+    for (int y = y0; y < y1; y += block_height) {
+      for (int x = x0; x < x1; x += block_width) {
+        ground_receivers(frame, x, y, r);
+        put_lights(frame, maps, r, run.lights_hidden, x - lit.at.x, y - lit.at.y, lit);
+      }
+    }
+  });
+}
+
+bool light_surfaces(const FrameBlock& frame, const DepthMaps& maps, const PixelRectangle& rectangle,
+                    std::span<const SurfaceTexel> texels, LitPixels& lit) {
+  if (std::all_of(texels.begin(), texels.end(), [](const SurfaceTexel& t) { return t.depth == 0; }))
+    return false;
+  lit.at = rectangle;
+  for (std::vector<Parts>* parts : {&lit.lights, &lit.diffuse}) parts->resize(area(rectangle));
+  lit.mirrored.resize(maps.sky_is_map ? area(rectangle) : 0);
+  for_blocks(rectangle.width, rectangle.height, [&](int x, int y) {
+    Receivers r;
+    if (!surface_receivers(frame, maps.sky_is_map, rectangle, texels, x, y, r)) return;
+    put_lights(frame, maps, r, all_lights, x, y, lit);
+    SkySeen seen;
+    sky_seen(frame, maps, r, seen);
+    put_sky(seen.diffuse, rectangle, x, y, lit.diffuse);
+    if (maps.sky_is_map) put_sky(seen.mirrored, rectangle, x, y, lit.mirrored);
+  });
+  return true;
+}
+
+void allocate_lit(const Texture& texture, int width, int height) {
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, texture.id());
+  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA16, width, height, 3);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+void upload_lit(const LitPixels& lit, int width, int height) {
+  const int w = std::min(lit.at.width, width - lit.at.x), h = std::min(lit.at.height, height - lit.at.y);
+  if (w <= 0 || h <= 0) return;
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, lit.at.width);
+  GLint layer = 0;
+  for (const std::vector<Parts>* parts : {&lit.lights, &lit.diffuse, &lit.mirrored}) {
+    if (!parts->empty()) {
+      glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, lit.at.x, lit.at.y, layer, w, h, 1, GL_RGBA, GL_UNSIGNED_SHORT,
+                      parts->data());
+    }
+    ++layer;
+  }
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+}
+
+void light_ground_map(const FrameBlock& frame, const DepthMaps& maps, LitPixels& lit) {
+  const int size = static_cast<int>(frame.counts[3]);
+  lit.at = {0, 0, size, size};
+  lit.lights.assign(area(lit.at), whole);
+  lit.diffuse.resize(area(lit.at));
+  lit.mirrored.clear();
+  for_blocks(size, size, [&](int x, int y) {
+    Receivers r;
+    ground_map_receivers(frame, x, y, r);
+    put_lights(frame, maps, r, all_lights, x, y, lit);
+    SkySeen seen;
+    sky_seen_softly(frame, maps, r, seen);
+    put_sky(seen.diffuse, lit.at, x, y, lit.diffuse);
+  });
+}
+
+}  // namespace lagomorph::render::raster

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/raster/frame_block.h"
+#include "render/raster/gl_objects.h"
+#include "render/raster/ground_tiles.h"
+#include "render/raster/visibility.h"
+
+namespace lagomorph::render::raster {
+
+/// Four parts in [0, 1], as 16-bit fractions.
+using Parts = std::array<std::uint16_t, 4>;
+
+/// What the shaders read of a rectangle's pixels, rows from below: the part of each of four lights that is
+/// seen, and of the sky, see SkySeen.
+struct LitPixels {
+  PixelRectangle at;
+  std::vector<Parts> lights, diffuse, mirrored;  // the last two where they are asked for; else empty
+};
+
+/// A pixel of what surface_fragment says.
+struct SurfaceTexel {
+  std::uint32_t depth;        // bits of a float, along the view axis [m]
+  std::uint32_t normal;       // two fractions in [-1, 1] of 16 bits, on the octahedron
+  std::uint32_t flat_normal;  // likewise
+  std::uint32_t finish;       // 1 + 65534 times the roughness; 0: nothing, or nothing that is lit
+};
+
+/// The smallest rectangle of whole blocks around one, in a picture of whole blocks or a little less.
+PixelRectangle whole_blocks(const PixelRectangle&);
+
+/// Of the ground in tiles, where their lights may be hidden: the lights alone, of the rectangle around them.
+void light_ground(const FrameBlock&, const DepthMaps&, std::span<const TileRun>, LitPixels&);
+/// Of surfaces in a rectangle of whole blocks. Returns false, with nothing made, where no texel has a depth.
+bool light_surfaces(const FrameBlock&, const DepthMaps&, const PixelRectangle&, std::span<const SurfaceTexel>,
+                    LitPixels&);
+/// Of the ground's map: lights, and what falls on it of the sky.
+void light_ground_map(const FrameBlock&, const DepthMaps&, LitPixels&);
+
+/// A texture of three layers for LitPixels, and what it has of them where it is bound.
+void allocate_lit(const Texture&, int width, int height);
+void upload_lit(const LitPixels&, int width, int height);
+
+}  // namespace lagomorph::render::raster

@@ -1,0 +1,208 @@
+#include "render/raster/shaders/shaders.h"
+
+namespace lagomorph::render::raster::shaders {
+
+// The square around the disc.
+const char* const ground_vertex = R"(
+void main() {
+  vec2 at = ground_at.xz + ground.y * (2.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0);
+  gl_Position = clip_from_world * vec4(at.x, ground.x, at.y, 1.0);
+}
+)";
+
+// Where this pixel's ray meets the ground's plane; false where it does not.
+const char* const ground_point = R"(
+bool meet_ground(out vec3 x, out float depth) {
+  vec3 origin, direction;
+  pixel_ray(origin, direction);
+  depth = (ground.x - origin.y) / direction.y;
+  bool met = depth > 0.0 && depth < 1e9;
+  x = origin + (met ? depth : 0.0) * direction;
+  x.y = ground.x;
+  return met;
+}
+float ground_distance(vec3 x) { return length(x.xz - ground_at.xz); }
+float ground_fade(vec3 x) {
+  float t = clamp((ground_distance(x) - ground.z) / (ground.y - ground.z), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+// Towards the viewer.
+vec3 ground_normal(vec3 v) { return vec3(0.0, v.y > 0.0 ? 1.0 : -1.0, 0.0); }
+)";
+
+// The ground's colour, the mean over a square of `width` around x; see ground_texture.h.
+const char* const ground_color = R"(
+// The integral from 0 to x of what is 1 on lines of that width at multiples of `period` and 0 elsewhere.
+vec2 lines_up_to(vec2 x, float period, float line) {
+  vec2 k = floor(x / period + 0.5);
+  return k * line + clamp(x - k * period, -0.5 * line, 0.5 * line);
+}
+vec2 on_lines(vec2 x, vec2 width, float period, float line) {
+  line = min(line, period);
+  return (lines_up_to(x + 0.5 * width, period, line) - lines_up_to(x - 0.5 * width, period, line)) / width;
+}
+vec3 ground_color_at(vec3 x, vec2 width) {
+  vec3 plain = surfaces[0].color.rgb;
+  if (ground_texture.x < 0.5) return plain;
+  float size = ground_texture.y;
+  width = max(width, vec2(1e-4 * size));
+  float part;
+  if (ground_texture.x < 1.5) {
+    // Squares are bands of the two directions' signs, whose means multiply.
+    vec2 odd = on_lines(x.xz - 0.5 * size, width, 2.0 * size, size);
+    vec2 mean_sign = 1.0 - 2.0 * odd;
+    part = 0.5 - 0.5 * mean_sign.x * mean_sign.y;
+  } else {
+    vec2 fine = on_lines(x.xz, width, size, ground_texture.z);
+    vec2 metres = on_lines(x.xz, width, 1.0, 3.0 * ground_texture.z);
+    vec2 line = max(fine, metres);
+    part = 1.0 - (1.0 - line.x) * (1.0 - line.y);
+  }
+  return mix(plain, texture_color.rgb, part);
+}
+)";
+
+// The picture without the meshes, and what they can take from the ground in it, times the part of the ground that
+// does not fade: see taken_fragment. Highlights end where half floats do, so that a shadow leaves nothing of them.
+const char* const still_fragment = R"(
+layout(location = 0) out vec4 picture;
+layout(location = 1) out vec4 diffuse;   // what the sky's light on the ground becomes; w: of a white ground
+layout(location = 2) out vec4 mirrored;  // of the sky
+#if LIGHTS > 0
+layout(location = 3) out vec4 lit[LIGHTS];
+#endif
+#ifdef SKY_MAP
+layout(location = 3 + LIGHTS) out vec4 mirrored_mesh;  // what the light on a mesh before the sky becomes
+#endif
+const float most = 65504.0;
+void main() {
+  vec3 origin, direction;
+  pixel_ray(origin, direction);
+  picture = vec4(background_radiance(direction), 1.0);
+  diffuse = vec4(0.0);
+  mirrored = vec4(0.0);
+#ifdef SKY_MAP
+  mirrored_mesh = vec4(0.0);
+#endif
+#if LIGHTS > 0
+  for (int i = 0; i < LIGHTS; ++i) lit[i] = vec4(0.0);
+#endif
+  Point p;
+  float depth;
+  bool met = meet_ground(p.x, depth);
+  // As wide as the path tracer's filter: a box of the same variance.
+  vec2 over_x = dFdx(p.x.xz), over_y = dFdy(p.x.xz);
+  float part = met && ground.w > 0.5 ? 1.0 - ground_fade(p.x) : 0.0;
+  if (part <= 0.0) return;
+  vec3 v = towards_eye(p.x);
+  p.normal = ground_normal(v);
+  Surface surface = surfaces[0];
+  surface.color.rgb = ground_color_at(p.x, 1.35 * sqrt(over_x * over_x + over_y * over_y));
+  Finish finish = finish_of(surface, p.normal, v);
+  SkyLight sky = sky_light(finish, p.normal, v, radiance_below_ground(p.normal));
+  vec3 sent = part * sent_of_sky(finish, sky, SkySeen(vec3(1.0), vec3(1.0)));
+#if LIGHTS > 0
+  for (int i = 0; i < LIGHTS; ++i) {
+    lit[i].rgb = min(part * sent_of_light(i, finish, p, v), most);
+    sent += lit[i].rgb;
+  }
+#endif
+  picture.rgb = (1.0 - part) * picture.rgb + sent;
+  diffuse = min(part * finish.out_of_base / PI * vec4(finish.coat.diffuse, 1.0), most);
+  mirrored.rgb = min(part * finish.mirrors * sky.mirrored, most);
+#ifdef SKY_MAP
+  mirrored_mesh.rgb = min(part * finish.mirrors * sky.mirrored_mesh, most);
+#endif
+}
+)";
+
+// A run of tiles a instance: its left, lower, right and upper border [pixels], and a bit for each light that meshes
+// may hide there.
+const char* const tiles_vertex = R"(
+layout(location = 0) in vec4 run;
+layout(location = 1) in uint hidden;
+flat out uint any_hidden;
+void main() {
+  vec2 at = vec2((gl_VertexID & 1) == 0 ? run.x : run.z, (gl_VertexID >> 1) == 0 ? run.y : run.w);
+  any_hidden = hidden;
+  gl_Position = vec4(2.0 * at * viewport.zw - 1.0, 0.0, 1.0);
+}
+)";
+
+// The still picture less what the meshes take from the ground: their shadows, and the sky that they hide.
+const char* const taken_fragment = R"(
+layout(binding = 14) uniform sampler2D still_picture;
+layout(binding = 15) uniform sampler2DArray still_parts;  // diffuse, mirrored, lights, mirrored mesh
+layout(binding = 0) uniform sampler2DArray seen_of_pixel;    // see layer_fragment
+flat in uint any_hidden;
+out vec4 color;
+
+vec4 still(int part) { return texelFetch(still_parts, ivec3(gl_FragCoord.xy, part), 0); }
+
+void main() {
+  vec3 x;
+  float depth;
+  meet_ground(x, depth);
+  vec3 n = ground_normal(towards_eye(x));
+  vec3 seen = ground_seen(ground_map_at(x));
+  vec4 diffuse = still(0);
+  vec3 albedo = diffuse.rgb / max(diffuse.w, 1e-6);
+  vec3 open = open_sky(n);
+  vec3 from_below = light_from_below(n, radiance_below_ground(n));
+  vec3 ambient = ambient_light(open, seen, from_below, albedo);
+  vec3 taken = diffuse.rgb * (open + from_below - ambient) + (1.0 - seen) * still(1).rgb;
+#ifdef SKY_MAP
+  taken -= (1.0 - seen) * ambient * still(2 + LIGHTS).rgb;
+#endif
+#if LIGHTS > 0
+  if (any_hidden != 0u) {
+    vec4 hidden = 1.0 - texelFetch(seen_of_pixel, ivec3(gl_FragCoord.xy, 0), 0);
+    for (int i = 0; i < LIGHTS; ++i) taken += hidden[i] * still(2 + i).rgb;
+  }
+#endif
+  color = vec4(max(texelFetch(still_picture, ivec2(gl_FragCoord.xy), 0).rgb - taken, 0.0), 1.0);
+}
+)";
+
+// Depth only, to hide what is below; the part that fades is none of its business.
+const char* const ground_cover_fragment = R"(
+void main() {
+  vec3 x;
+  float depth;
+  if (!meet_ground(x, depth) || ground_distance(x) > ground.z) discard;
+}
+)";
+
+const char* const ground_depth_fragment = R"(
+out float depth;
+void main() {
+  vec3 x;
+  if (!meet_ground(x, depth) || ground_distance(x) > ground.y) discard;
+}
+)";
+
+// On the square of ground under the meshes: the part of the sky that is seen, and the radiance sent up.
+const char* const ground_map_fragment = R"(
+layout(binding = 1) uniform sampler2DArray seen_of_texel;  // of lights and sky
+layout(location = 0) out vec4 ambient;
+layout(location = 1) out vec4 bounce;
+void main() {
+  vec2 at = gl_FragCoord.xy / counts.w;
+  vec3 x = vec3((at.x - ground_map.z) / ground_map.x, ground.x, (at.y - ground_map.w) / ground_map.x);
+  vec3 n = vec3(0.0, 1.0, 0.0);
+  vec4 lights_seen = texelFetch(seen_of_texel, ivec3(gl_FragCoord.xy, 0), 0);
+  vec3 seen = texelFetch(seen_of_texel, ivec3(gl_FragCoord.xy, 1), 0).rgb;
+  // Outside of the map all is seen; meet that at its border.
+  vec2 edge = smoothstep(0.0, 0.1, min(at, 1.0 - at));
+  seen = mix(vec3(1.0), seen, edge.x * edge.y);
+  vec3 light = seen * open_sky(n);
+  for (int i = 0; i < int(counts.x); ++i) {
+    vec3 direction;
+    light += lights[i].radiance.rgb * rectangle_irradiance(lights[i], x, n, direction) * lights_seen[i];
+  }
+  ambient = vec4(seen, 1.0);
+  bounce = vec4((1.0 - surfaces[0].finish.y) * ground_color_at(x, vec2(ground_map.y)) / PI * light, 1.0);
+}
+)";
+
+}  // namespace lagomorph::render::raster::shaders

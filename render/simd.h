@@ -1,0 +1,9 @@
+#pragma once
+
+/// A function marked with it is compiled for several instruction sets, and the processor's best is taken when
+/// the program starts (as in sim/simd.h, of which the renderers know nothing).
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define LAGOMORPH_RENDER_SIMD __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#else
+#define LAGOMORPH_RENDER_SIMD
+#endif
