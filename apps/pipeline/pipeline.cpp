@@ -51,7 +51,7 @@ DrawnFrame draw(const PipelineInput& in, StateFrame frame) {
   const Stopwatch watch;
   std::optional<Motion> motion;
   if (drawn.of.before)
-    motion.emplace(std::move(*drawn.of.before), static_cast<double>(in.scene.camera.shutter));
+    motion = Motion{std::move(*drawn.of.before), static_cast<double>(in.scene.camera.shutter)};
   const sim::VecX& q = drawn.of.state.q;
   {
     const sim::Timed timed(sim::Stage::surface);
