@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "sim/error.h"
 #include "sim/profile.h"
@@ -187,12 +188,13 @@ FactorStatus Newton::solve_shifted(const Model& model, Solve&& solve) {
   model.add_mass(1.0, mass);
   const double unit = largest(H_) / largest(mass);
   FactorStatus status = FactorStatus::not_positive_definite;
-  double sum = 0.0;
-  for (double shift = kLeastShift; shift <= kLargestShift; shift *= 100.0) {
+  double sum = 0.0, shift = kLeastShift;
+  while (shift <= kLargestShift) {
     model.add_mass(shift * unit - sum, H_);
     sum = shift * unit;
     status = solve();
     if (status != FactorStatus::not_positive_definite) break;
+    shift *= 100.0;
   }
   return status;
 }
@@ -264,7 +266,7 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
   solver_.begin(phi.m == 0.0);
   NewtonReport report;
   const double farthest = kFarthest * (q.cwiseAbs().maxCoeff() + model.mesh().X.cwiseAbs().maxCoeff());
-  Point point = evaluate(model, phi, std::move(q));
+  Point point = evaluate(model, phi, std::exchange(q, {}));  // `end` gives it back
   const auto end = [&](StepStatus status) {
     report.status = status;
     report.residual = point.residual();
