@@ -81,13 +81,15 @@ BarLayout layout_of(int width, int height, const BarLabels& labels) {
 }
 
 void draw_gradient(render::Picture& picture, const Rectangle& bar, const render::Colormap& map) {
-  for (double y = bar.top; y < bar.bottom; y = std::floor(y) + 1.0) {
+  double y = bar.top;
+  while (y < bar.bottom) {
     const double end = std::min(std::floor(y) + 1.0, bar.bottom);
     const double value = (bar.bottom - 0.5 * (y + end)) / (bar.bottom - bar.top);
     const std::array<float, 3> rgb = render::srgb_of(map, static_cast<float>(value));
     Color color;
     for (std::size_t i = 0; i < 3; ++i) color[i] = static_cast<std::uint8_t>(std::lround(255.0F * rgb[i]));
     fill_rectangle(picture, {bar.left, y, bar.right, end}, color);
+    y = end;
   }
 }
 
