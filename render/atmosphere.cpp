@@ -115,8 +115,7 @@ class SkyLight : public Air {
 public:
   explicit SkyLight(const Atmosphere& a) : Air(a) {
     for (int i = 0; i < heights; ++i) {
-      for (int k = 0; k < cosines; ++k)
-        multiple_[static_cast<std::size_t>(cosines * i + k)] = multiple_at(height_of(i), cosine_of(k));
+      for (int k = 0; k < cosines; ++k) multiple_[cell_of(i, k)] = multiple_at(height_of(i), cosine_of(k));
     }
   }
 
@@ -144,6 +143,9 @@ private:
   static constexpr int heights = 16, cosines = 8;
   static constexpr std::size_t cells = std::size_t{heights} * cosines;
   static constexpr double cosine_range = 0.15;
+  static std::size_t cell_of(int i, int k) {
+    return static_cast<std::size_t>(i) * cosines + static_cast<std::size_t>(k);
+  }
   static double height_of(double i) { return (top - earth) * i * i / ((heights - 1) * (heights - 1)); }
   double cosine_of(int k) const {
     return std::clamp(sun_.y() + cosine_range * (2.0 * k / (cosines - 1) - 1.0), -1.0, 1.0);
@@ -158,7 +160,8 @@ private:
     const Vec sun(std::sqrt(std::max(1.0 - cosine * cosine, 0.0)), cosine, 0.0);
     Array second = Array::Zero(), kept = Array::Zero();
     for (int i = 0; i < around * around; ++i) {
-      const double y = 1.0 - (2.0 * (i / around) + 1.0) / around;
+      const int row = i / around;
+      const double y = 1.0 - (2.0 * row + 1.0) / around;
       const double phi = 2.0 * pi * (i % around + 0.5) / around;
       const double across = std::sqrt(1.0 - y * y);
       const Vec d(across * std::cos(phi), y, across * std::sin(phi));
@@ -185,7 +188,7 @@ private:
         std::clamp((cosine - sun_.y() + cosine_range) / (2.0 * cosine_range), 0.0, 1.0) * (cosines - 1);
     const int i = std::min(static_cast<int>(x), heights - 2);
     const int k = std::min(static_cast<int>(y), cosines - 2);
-    const auto at = [&](int a, int b) { return multiple_[static_cast<std::size_t>(cosines * a + b)]; };
+    const auto at = [&](int a, int b) { return multiple_[cell_of(a, b)]; };
     const double fx = x - i, fy = y - k;
     return (1.0 - fx) * ((1.0 - fy) * at(i, k) + fy * at(i, k + 1)) +
            fx * ((1.0 - fy) * at(i + 1, k) + fy * at(i + 1, k + 1));

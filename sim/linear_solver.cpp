@@ -224,9 +224,10 @@ void LinearSolver::Implementation::fill(const BlockHessian& H) {
       const FreeVertex& row = order[static_cast<std::size_t>(where.row)];
       const FreeVertex& column = order[static_cast<std::size_t>(where.column)];
       for (int k = 0; k < column.count; ++k) {
+        const int place = column.first + k;
         // Each column begins at its diagonal, so that the k-th has k rows less.
         double* values =
-            lower.values.data() + lower.starts[static_cast<std::size_t>(column.first + k)] + where.before - k;
+            lower.values.data() + lower.starts[static_cast<std::size_t>(place)] + where.before - k;
         const int axis = column.axes[static_cast<std::size_t>(k)];
         for (int r = where.row == where.column ? k : 0; r < row.count; ++r) {
           const int row_axis = row.axes[static_cast<std::size_t>(r)];

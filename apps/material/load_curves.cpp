@@ -58,10 +58,11 @@ std::vector<LoadPoint> points_with_free_sides(const sim::MaterialPoint& material
   for (const int direction : {-1, 1}) {
     double guess = 1.0;
     for (int i = 0; i <= (direction < 0 ? below : above); ++i) {
+      const int place = below + direction * i;
       // In small steps, since a root may have a fold beside it.
       for (int k = i == 0 ? parts : 1; k <= parts; ++k) {
         const double steps = i == 0 ? 0.0 : i - 1 + static_cast<double>(k) / parts;
-        points[static_cast<std::size_t>(below + direction * i)] =
+        points[static_cast<std::size_t>(place)] =
             with_free_sides(material, closed, 1.0 + 0.05 * direction * steps, guess, first_free);
       }
     }

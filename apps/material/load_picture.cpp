@@ -95,8 +95,9 @@ std::string load_svg(const std::string& model, const std::vector<LoadCurve>& cur
       "form</text>\n",
       2.0 * width, rows * height + 20.0, left, model);
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    const Panel panel(curves[i], width * static_cast<double>(i % 2),
-                      20.0 + height * static_cast<double>(i / 2));
+    const std::size_t row = i / 2, column = i % 2;
+    const Panel panel(curves[i], width * static_cast<double>(column),
+                      20.0 + height * static_cast<double>(row));
     svg += panel.grid() + panel.titles(curves[i]) + panel.curves(curves[i]);
   }
   return svg + "</svg>\n";

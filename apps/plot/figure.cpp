@@ -298,8 +298,8 @@ Drawing draw_overview(const std::vector<Figure>& figures, int width) {
   Drawing drawing{
       .width = width, .height = static_cast<int>(height * static_cast<double>(rows)), .shapes = {}};
   for (std::size_t i = 0; i < figures.size(); ++i) {
-    const double left = cell * static_cast<double>(i % columns),
-                 top = height * static_cast<double>(i / columns);
+    const std::size_t row = i / columns, column = i % columns;
+    const double left = cell * static_cast<double>(column), top = height * static_cast<double>(row);
     Layout(figures[i], {left, top, left + cell, top + height}, height / 620, drawing).draw();
   }
   return drawing;

@@ -33,8 +33,9 @@ CubeMap<Halves> sampled(const SkyMap& map, float strength) {
         Color sum = Color::Zero();
         float height = 0.0F;
         for (int k = 0; k < 9; ++k) {
-          const float s = (static_cast<float>(x) + (static_cast<float>(k % 3) + 0.5F) / 3.0F) / lobe_size;
-          const float t = (static_cast<float>(y) + (static_cast<float>(k / 3) + 0.5F) / 3.0F) / lobe_size;
+          const int down = k / 3, across = k % 3;
+          const float s = (static_cast<float>(x) + (static_cast<float>(across) + 0.5F) / 3.0F) / lobe_size;
+          const float t = (static_cast<float>(y) + (static_cast<float>(down) + 0.5F) / 3.0F) / lobe_size;
           const Vec3 d = cube_point(face, 2.0F * s - 1.0F, 2.0F * t - 1.0F).normalized();
           sum += map.radiance(d);
           height += d.y();
