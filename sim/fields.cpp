@@ -180,6 +180,7 @@ double von_mises(const Mat3& stress) {
 
 std::vector<FieldInfo> field_table() {
   std::vector<FieldInfo> all;
+  all.reserve(table.size());
   for (const FieldRow& row : table) all.push_back(row.info);
   return all;
 }

@@ -43,6 +43,7 @@ constexpr std::array kTriFormats = {
 template <typename Table>
 std::vector<std::string> extensions_of(const Table& table) {
   std::vector<std::string> extensions;
+  extensions.reserve(table.size());
   for (const auto& format : table) extensions.emplace_back(format.extension);
   return extensions;
 }

@@ -48,6 +48,7 @@ MotionCurve curve_of(const std::vector<PinKey>& keys, bool is_smooth, const std:
 
 MotionCurve curve_of(const Recording& path, double fps, bool is_smooth) {
   std::vector<double> times;
+  times.reserve(static_cast<std::size_t>(path.samples));
   for (int k = 0; k < path.samples; ++k) times.push_back(k / fps);
   const Eigen::Index size = static_cast<Eigen::Index>(path.values.size()) / path.samples;
   return {std::move(times), Eigen::Map<const Eigen::MatrixXd>(path.values.data(), size, path.samples),

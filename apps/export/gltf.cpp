@@ -52,6 +52,7 @@ private:
 /// Times of the key frames, from 0 on [s]; then at each the weights of all targets.
 void write_animation(FileStream& out, int count, double fps) {
   std::vector<float> row;
+  row.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) row.push_back(gltf_time(k, fps));
   out.write(bytes_of(row));
   row.assign(static_cast<std::size_t>(count - 1), 0.0F);

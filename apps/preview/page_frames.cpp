@@ -28,6 +28,7 @@ std::vector<PageFrame> page_frames(const Shown& shown, const fs::path& work,
   const std::vector<const ShownFrame*> frames = shown.readable();
   if (frames.empty()) return {};
   std::vector<fs::path> files;
+  files.reserve(frames.size());
   for (const ShownFrame* frame : frames) files.push_back(frame->small);
   const std::vector<std::string> encoded = webps(files, work / "page", stop);
   std::vector<PageFrame> all;

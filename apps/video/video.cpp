@@ -135,6 +135,7 @@ std::string last_line(std::string text) {
 
 std::vector<std::string> video_codecs() {
   std::vector<std::string> names;
+  names.reserve(codecs.size());
   for (const Codec& codec : codecs) names.emplace_back(codec.name);
   return names;
 }

@@ -83,6 +83,7 @@ void trace_adaptively(PathTracer& tracer, const Tile& tile, const FrameSamples& 
                       TileMeans* means) {
   std::vector<Cell> cells = cells_of(tile);
   std::vector<Cell*> active;
+  active.reserve(cells.size());
   for (Cell& cell : cells) active.push_back(&cell);
   int before = 0;
   int next = std::min((s.min_samples + 1) / 2, s.max_samples);

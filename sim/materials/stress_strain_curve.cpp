@@ -51,6 +51,7 @@ void set_slopes(std::vector<Knot>& knots) {
 /// The data by growing x = log λ, with the origin.
 std::vector<Knot> knots_of(const std::vector<std::array<double, 2>>& data, const std::string& where) {
   std::vector<Knot> knots;
+  knots.reserve(data.size() + 1);
   for (const auto& [strain, stress] : data)
     knots.push_back({std::log1p(strain), (1.0 + strain) * stress, 0.0});
   if (std::none_of(knots.begin(), knots.end(), [](const Knot& k) { return k.x == 0.0; }))
@@ -75,6 +76,7 @@ std::vector<Knot> grid_around(const std::vector<Knot>& data) {
   constexpr int within = 96, beyond = 48;
   const double range = std::max(-data.front().x, data.back().x);
   std::vector<double> places;
+  places.reserve(data.size() + 2 * (within + beyond));
   for (const Knot& k : data) places.push_back(k.x);
   for (const double side : {-1.0, 1.0}) {
     for (int i = 1; i <= within; ++i) places.push_back(side * range * i / within);
