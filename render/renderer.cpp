@@ -70,7 +70,7 @@ std::vector<std::string> renderer_remarks(const RenderSettings& settings, const 
   if ((settings.channel_format == "exr" || settings.channel_format == "png") && settings.channels.empty())
     remarks.push_back("render.channel_format = " + settings.channel_format +
                       " has no effect without render.channels");
-  for (std::string& remark : remarks) remark = settings.backend + ": " + remark;
+  for (std::string& remark : remarks) remark.insert(0, settings.backend + ": ");
   return remarks;
 }
 

@@ -73,13 +73,15 @@ void append(const TetMesh& body, const std::string& name, TetMesh& all) {
   all.bodies.push_back({name, vertices, tets});
 }
 
+std::size_t axis_of(const std::string& name, const std::string& where) {
+  require(name == "x" || name == "y" || name == "z",
+          where + ": unknown axis '" + name + "'; valid ones are x, y, z");
+  return static_cast<std::size_t>(name[0] - 'x');
+}
+
 Axes axes_of(const PinSettings& pin, const std::string& where) {
   Axes axes = {false, false, false};
-  for (const std::string& axis : pin.axes) {
-    require(axis == "x" || axis == "y" || axis == "z",
-            where + ": unknown axis '" + axis + "'; valid ones are x, y, z");
-    axes[static_cast<std::size_t>(axis[0] - 'x')] = true;
-  }
+  for (const std::string& name : pin.axes) axes[axis_of(name, where)] = true;
   require(!pin.axes.empty(), where + ": axes is empty; give some of x, y, z");
   return axes;
 }

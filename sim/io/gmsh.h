@@ -60,29 +60,33 @@ inline bool is_gmsh_tetrahedron(std::int64_t type) {
   return type == kGmshTetrahedron || type == kGmshQuadraticTetrahedron;
 }
 
+/// See for_each_gmsh_section.
+template <typename Read>
+void read_gmsh_section(GmshNumbers& numbers, Read& read) {
+  Scanner& scanner = numbers.scanner();
+  const std::string name(scanner.token("a section"));
+  if (name.size() < 2 || name[0] != '$')
+    scanner.fail("expected a section such as $Nodes, found " + in_quotes(name));
+  if (numbers.is_binary()) scanner.skip_line();
+  const std::string end = "$End" + name.substr(1);
+  if (read(name)) {
+    if (!scanner.at_end() && scanner.peek() != end) {
+      scanner.fail("expected '" + end + "', found " + in_quotes(scanner.peek()) + "; is the count in " +
+                   name + " right?");
+    }
+  } else {
+    const std::size_t found = scanner.bytes().find(end, scanner.position());
+    if (found == std::string_view::npos) scanner.fail(name + " has no " + end);
+    scanner.seek(found);
+  }
+  scanner.token(end.c_str());
+}
+
 /// Calls `read(name)` for each section ("$Nodes") after its first line; when it returns false the section is
 /// skipped.
 template <typename Read>
 void for_each_gmsh_section(GmshNumbers& numbers, Read read) {
-  Scanner& scanner = numbers.scanner();
-  while (!scanner.at_end()) {
-    const std::string name(scanner.token("a section"));
-    if (name.size() < 2 || name[0] != '$')
-      scanner.fail("expected a section such as $Nodes, found " + in_quotes(name));
-    if (numbers.is_binary()) scanner.skip_line();
-    const std::string end = "$End" + name.substr(1);
-    if (read(name)) {
-      if (!scanner.at_end() && scanner.peek() != end) {
-        scanner.fail("expected '" + end + "', found " + in_quotes(scanner.peek()) + "; is the count in " +
-                     name + " right?");
-      }
-    } else {
-      const std::size_t found = scanner.bytes().find(end, scanner.position());
-      if (found == std::string_view::npos) scanner.fail(name + " has no " + end);
-      scanner.seek(found);
-    }
-    scanner.token(end.c_str());
-  }
+  while (!numbers.scanner().at_end()) read_gmsh_section(numbers, read);
 }
 
 TetMesh read_gmsh_2(GmshNumbers&);
