@@ -54,8 +54,8 @@ enum class PngForm { none, unit_vector, color, part, id, count };
 /// A row of the one table of channels.
 struct ChannelKind {
   const char* name;
+  const char* parts = "X";  // a letter for each component, as OpenEXR files call them
   int components = 1;       // values a cell
-  const char* parts = "X";  // a letter for each, as OpenEXR files call them
   int cell = 1;             // side of the square that has its own values [pixels]
   bool path_only = false;
   bool is_layer = true;  // OpenEXR files call it <name>.<letter>; false: by the letter alone

@@ -8,8 +8,6 @@
 namespace lagomorph::render::path {
 namespace {
 
-constexpr float just_under_one = 0x1.fffffep-1F;
-
 /// What is not clear: of the part 1 - transmission (1 - metallic), so that it weighs as it should.
 Material opaque_part(const Material& m) {
   Material opaque = m;
