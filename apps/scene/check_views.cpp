@@ -20,7 +20,7 @@ namespace {
 /// first that is given.
 std::string place_of_any(const std::vector<std::string>& keys, const Places& places) {
   for (const std::string& key : keys)
-    if (places.has(key) && places.of(key).starts_with("--set ")) return places.of(key);
+    if (places.overridden(key)) return places.of(key);
   for (const std::string& key : keys)
     if (places.has(key)) return places.of(key);
   return places.of(keys.back());

@@ -15,6 +15,8 @@ class Places {
 public:
   void add(const std::string& path, std::string place) { places_[path] = std::move(place); }
   bool has(const std::string& path) const { return places_.count(path) != 0; }
+  /// Whether --set gives the key, or a part of it.
+  bool overridden(const std::string& path) const { return has(path) && of(path).starts_with("--set "); }
   /// Of the key; of what holds it when it is not given itself.
   std::string of(std::string path) const;
 

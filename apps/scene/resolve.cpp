@@ -169,14 +169,24 @@ void resolve_regions(sim::BodySettings& body, const std::string& path, const Pla
   }
 }
 
-/// The usual strengths of an image and of the physical model are others than the gradient's.
+/// The usual strengths of an image and of the physical model are others than the gradient's. The scene of a
+/// run has all defaults written out, so what --set makes of its sky has the usual strength of that.
 void resolve_sky(SkyDesc& sky, const Places& places) {
-  if (places.has("sky.strength")) return;
+  const bool becomes_another = (places.overridden("sky.model") || places.overridden("sky.image")) &&
+                               !places.overridden("sky.strength");
+  if (places.has("sky.strength") && !becomes_another) return;
   if (!sky.image.empty()) {
     sky.strength = 1.0F;
   } else if (sky.model == "physical") {
     sky.strength = 5.0F;
+  } else if (becomes_another) {
+    sky.strength = SkyDesc{}.strength;
   }
+}
+
+/// From below, the ground would be all that is seen.
+void resolve_ground(render::Ground& ground, const CameraDesc& camera, const Places& places) {
+  if (camera.view == "bottom" && !places.overridden("ground.enabled")) ground.enabled = false;
 }
 
 void check_looks(const SceneDesc& scene, const Places& places) {
@@ -274,6 +284,7 @@ void resolve_scene(SceneDesc& scene, const Places& places, const std::string& st
   check_views(scene, places);
   check_looks(scene, places);
   resolve_sky(scene.sky, places);
+  resolve_ground(scene.ground, scene.camera, places);
 }
 
 void check_scene_files(const SceneDesc& scene, const Places& places) {

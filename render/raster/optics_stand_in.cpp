@@ -1,14 +1,30 @@
 #include "render/raster/optics_stand_in.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
 
 #include "render/albedo.h"
 
 namespace lagomorph::render::raster {
 
-Material optics_stand_in(const Material& m) {
+float mean_chord(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
+  double volume = 0.0, area = 0.0;
+  for (const Triangle& t : triangles) {
+    const Eigen::Vector3d a = positions[t[0]].cast<double>();
+    const Eigen::Vector3d b = positions[t[1]].cast<double>(), c = positions[t[2]].cast<double>();
+    volume += a.dot(b.cross(c)) / 6.0;
+    area += 0.5 * (b - a).cross(c - a).norm();
+  }
+  return area > 0.0 ? static_cast<float>(4.0 * std::abs(volume) / area) : 0.0F;
+}
+
+Material optics_stand_in(const Material& m, float thickness) {
+  Material clear = m;
+  clear.absorption_color = m.absorption_color.pow(thickness / m.absorption_distance);
   Material drawn = m;
-  drawn.base_color = albedo(m);
+  drawn.base_color = albedo(clear);
   drawn.roughness += m.coat * (std::min(m.roughness, m.coat_roughness) - m.roughness);
   return drawn;
 }
@@ -21,7 +37,8 @@ std::vector<std::string> optics_remarks(const RenderScene& scene) {
     const auto add = [&](bool there, const char* drawn) {
       if (there) what += (what.empty() ? "" : "; ") + std::string(drawn);
     };
-    add(m.transmission > 0.0F, "transmission is an opaque base of absorption_color");
+    add(m.transmission > 0.0F,
+        "transmission is an opaque base of absorption_color through its mean thickness");
     add(m.subsurface > 0.0F, "subsurface is an opaque base of subsurface_color");
     add(m.coat > 0.0F, "coat sharpens the highlights instead of adding its own");
     add(m.sheen > 0.0F, "sheen is left out");

@@ -139,8 +139,8 @@ private:
   bool lights_are_stale_ = true;
 };
 
-SurfaceBlock surface_block(const Material& material) {
-  const Material m = optics_stand_in(material);
+SurfaceBlock surface_block(const Material& material, float thickness) {
+  const Material m = optics_stand_in(material, thickness);
   const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
   return {vec4(m.base_color, 0.0F), Vec4(m.roughness, m.metallic, r * r, m.opacity)};
 }
@@ -202,8 +202,9 @@ void RasterRenderer::make_programs() {
 
 /// The ground, the meshes, the lights.
 void RasterRenderer::upload_surfaces(const RenderScene& scene) {
-  std::vector<SurfaceBlock> surfaces = {surface_block(scene.ground.material)};
-  for (const Mesh& mesh : scene.meshes) surfaces.push_back(surface_block(mesh.material));
+  std::vector<SurfaceBlock> surfaces = {surface_block(scene.ground.material, 1.0F)};
+  for (const Mesh& mesh : scene.meshes)
+    surfaces.push_back(surface_block(mesh.material, mean_chord(mesh.positions, mesh.triangles)));
   for (const AreaLight& light : scene_.lights)
     surfaces.push_back({vec4(Color(light.radiance * light.color), 1.0F), Vec4::Zero()});
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, gl_->surfaces.id());
@@ -293,8 +294,7 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
     targets->bind_seen();
     targets->clear_seen();
   }
-  const PixelRectangle seen =
-      common_rectangle(
+  const PixelRectangle seen = common_rectangle(
       whole_blocks(common_rectangle(seen_rectangle(camera, positions_, scene_), drawn)), picture);
   glScissor(drawn.x, drawn.y, drawn.width, drawn.height);
   if (!settings_.region.empty()) glEnable(GL_SCISSOR_TEST);

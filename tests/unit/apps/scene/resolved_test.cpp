@@ -152,5 +152,22 @@ TEST_F(Resolved, FilesThatAreNotThereAreToldWithTheirPlace) {
             ":2:8: body.0.mesh = 'b.node' needs 'b.ele' beside it: there is no such file");
 }
 
+TEST_F(Resolved, ASkyThatSetMakesAnotherHasItsUsualStrength) {
+  EXPECT_EQ(load({"sky.model=physical"}).sky.strength, 5.0F);
+  // A run's scene has every key written out.
+  const auto run =
+      directory.write("run.toml", "[[body]]\nmesh = 'a.msh'\n[sky]\nmodel = 'gradient'\nstrength = 0.6\n");
+  EXPECT_EQ(load_scene(run, {}).sky.strength, 0.6F);
+  EXPECT_EQ(load_scene(run, std::vector<std::string>{"sky.model=physical"}).sky.strength, 5.0F);
+  EXPECT_EQ(load_scene(run, std::vector<std::string>{"sky.model=physical", "sky.strength=2"}).sky.strength,
+            2.0F);
+}
+
+TEST_F(Resolved, FromBelowTheGroundIsLeftOut) {
+  EXPECT_TRUE(load().ground.enabled);
+  EXPECT_FALSE(load({"camera.view=bottom"}).ground.enabled);
+  EXPECT_TRUE(load({"camera.view=bottom", "ground.enabled=true"}).ground.enabled);
+}
+
 }  // namespace resolved_test
 }  // namespace lagomorph::apps
