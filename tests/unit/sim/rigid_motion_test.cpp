@@ -1,5 +1,6 @@
 #include "sim/rigid_motion.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "tests/unit/sim/mesh_fixtures.h"
