@@ -112,6 +112,20 @@ public:
     return result;
   }
 
+  /// The child goes, with all in it.
+  void take_away(const std::string& segment) {
+    if (!find(segment)) {
+      wrong_input(fmt::format("{}: there is no '{}{}{}' to take away", source_, path_,
+                              path_.empty() ? "" : ".", segment));
+    }
+    if (toml::table* table = node_->as_table()) {
+      table->erase(segment);
+    } else {
+      toml::array& array = *node_->as_array();
+      array.erase(array.cbegin() + static_cast<std::ptrdiff_t>(checked_index(array, segment)));
+    }
+  }
+
   toml::node* find(const std::string& segment) {
     if (toml::table* table = node_->as_table()) return table->get(segment);
     if (toml::array* array = node_->as_array()) return array->get(checked_index(*array, segment));
@@ -164,7 +178,11 @@ void Document::apply(const std::string& override_text) {
     setter.enter(segments[i], index_of(segments[i + 1]) ? "[]" : "{}");
   }
   setter.find(segments.back());  // tells when there is no such place
-  setter.put(segments.back(), parse_value(override_text.substr(equals + 1), source));
+  if (override_text.find_first_not_of(' ', equals + 1) == std::string::npos) {
+    setter.take_away(segments.back());
+  } else {
+    setter.put(segments.back(), parse_value(override_text.substr(equals + 1), source));
+  }
 }
 
 std::string Document::place(const toml::source_region& region) const {

@@ -45,6 +45,25 @@ TEST(Set, ReachesIntoArrays) {
   EXPECT_EQ(scene.time.gravity, sim::Vec3(0, -1.62, 0));
 }
 
+TEST(Set, TakesAwayWhatIsSetToNothing) {
+  EXPECT_EQ(with({"time.gravity="}).time.gravity, SceneDesc{}.time.gravity);
+  EXPECT_EQ(with({"time.fps=24", "time.fps= "}).time.fps, SceneDesc{}.time.fps);
+  EXPECT_TRUE(with({"body.0.pin="}).body[0].physics.pin.empty());
+  const SceneDesc one = with({"body.0="});
+  ASSERT_EQ(one.body.size(), 1U);
+  EXPECT_EQ(one.body[0].mesh, "b.msh");
+  EXPECT_FALSE(with({"clip.normal=[1, 0, 0]", "clip="}).clip.has_value());
+  for (const std::string wrong : {"clip=", "time.fbs=", "body.7=", "body.2="}) {
+    try {
+      with({wrong});
+      FAIL() << wrong;
+    } catch (const Error& e) {
+      EXPECT_EQ(std::string(e.what()).find("--set " + wrong + ": "), 0U) << e.what();
+      EXPECT_EQ(e.status, ExitStatus::wrong_input) << e.what();
+    }
+  }
+}
+
 TEST(Set, MakesTablesThatAreNotThere) {
   const SceneDesc scene = with({"camera.orthographic=2", "light.0.radiance=3", "body.2.mesh=c.msh",
                                 "body.1.pin.0.sphere.center=[1, 2, 3]", "body.1.pin.0.sphere.radius=4"});
