@@ -10,6 +10,7 @@
 #include "render/ground_texture.h"
 #include "render/raster/light_view.h"
 #include "render/raster/shaders/shaders.h"
+#include "render/raster/sky_depths.h"
 #include "render/raster/sky_light.h"
 #include "render/raster/sky_model.h"
 #include "render/raster/stand_ins.h"
@@ -107,7 +108,6 @@ LightMaps::LightMaps(const RasterSettings& settings)
   allocate_table(sky_table_, sky_table_size, 1, sky_irradiance_table(sky_table_size));
   allocate_table(coat_table_, coat_table_size, coat_table_size, coat_albedo_table(coat_table_size));
   allocate_depth(light_target_, light_depths_, settings_.shadow_map);
-  allocate_depth(sky_target_, sky_depths_, sky_map_size);
   allocate_lit(ground_seen_, ground_map_size, ground_map_size);
   const int levels = static_cast<int>(std::log2(ground_map_size)) + 1;
   for (const Texture* texture : {&ground_ambient_, &ground_bounce_}) {
@@ -205,15 +205,6 @@ void LightMaps::fit(const RenderScene& scene, std::span<const std::vector<Vec3>>
     for (const Vec3& p : mesh) box.extend(p);
   }
   const Sphere sphere = bounding_sphere(positions, box);
-  sky_views_.clear();
-  for (const SkyDirectionBlock& s : block.sky) {
-    Mat4 clip = Mat4::Identity();
-    clip.block<1, 3>(0, 0) = s.right.head<3>().transpose() / sphere.radius;
-    clip.block<1, 3>(1, 0) = s.up.head<3>().transpose() / sphere.radius;
-    clip.block<1, 3>(2, 0) = -s.direction.head<3>().transpose() / sphere.radius;
-    clip.block<3, 1>(0, 3) = -(clip.block<3, 3>(0, 0) * sphere.center);
-    sky_views_.push_back(clip);
-  }
   has_meshes_ = !box.isEmpty();
   block.counts.z() = has_meshes_ ? 1.0F : 0.0F;
   block.sky_map = vec4(sphere.center, 1.0F / sphere.radius);
@@ -225,9 +216,10 @@ void LightMaps::fit(const RenderScene& scene, std::span<const std::vector<Vec3>>
                           0.5F - scale * sphere.center.x(), 0.5F - scale * sphere.center.z());
 }
 
-void LightMaps::draw_depth(const Framebuffer& target, int size, const Mat4& clip_from_world,
-                           std::span<const MeshBuffers> meshes, DepthMap& depths) {
-  bind(target, size, size);
+void LightMaps::draw_depth(const Mat4& clip_from_world, std::span<const MeshBuffers> meshes,
+                           DepthMap& depths) {
+  const int size = settings_.shadow_map;
+  bind(light_target_, size, size);
   glClear(GL_DEPTH_BUFFER_BIT);
   depth_program_.use();
   glUniformMatrix4fv(depth_program_.location("clip_from_world"), 1, GL_FALSE, clip_from_world.data());
@@ -265,19 +257,34 @@ void LightMaps::draw_dots(const Mat4& clip_from_world, std::span<const MeshBuffe
   }
 }
 
-void LightMaps::draw(std::span<const MeshBuffers> meshes, const FrameBlock& block) {
+void LightMaps::draw_sky(std::span<const MeshBuffers> meshes, std::span<const std::vector<Vec3>> positions,
+                         const FrameBlock& block) {
+  if (!has_meshes_) {
+    depths_.sky.clear();
+    return;
+  }
+  std::vector<SkyCaster> casters;
+  casters.reserve(meshes.size());
+  for (std::size_t k = 0; k < meshes.size(); ++k) {
+    const MeshBuffers& mesh = meshes[k];
+    casters.push_back(
+        {positions[k], mesh.triangles(), mesh.closed(), mesh.material().opacity, mesh.body_id()});
+  }
+  draw_sky_depths(block, casters, sky_map_size, depths_.sky);
+}
+
+void LightMaps::draw(std::span<const MeshBuffers> meshes, std::span<const std::vector<Vec3>> positions,
+                     const FrameBlock& block) {
   depths_.light_size = settings_.shadow_map;
   depths_.lights.resize(light_views_.size());
   depths_.sky_size = sky_map_size;
-  depths_.sky.resize(has_meshes_ ? sky_views_.size() : 0);
   depths_.see_through = features_.see_through;
   depths_.sky_is_map = features_.sky_map;
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   for (std::size_t i = 0; i < light_views_.size(); ++i)
-    draw_depth(light_target_, settings_.shadow_map, light_views_[i], meshes, depths_.lights[i]);
-  for (std::size_t i = 0; i < depths_.sky.size(); ++i)
-    draw_depth(sky_target_, sky_map_size, sky_views_[i], meshes, depths_.sky[i]);
+    draw_depth(light_views_[i], meshes, depths_.lights[i]);
+  draw_sky(meshes, positions, block);
   if (!ground_) return;
   light_ground_map(block, depths_, ground_lit_);
   glActiveTexture(GL_TEXTURE1);

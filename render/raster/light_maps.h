@@ -32,7 +32,8 @@ public:
   /// Where the meshes are in the lights' maps, a grid each.
   std::span<const CasterGrid> casters() const { return casters_; }
   /// Draws the maps of what was fitted; the block is bound.
-  void draw(std::span<const MeshBuffers> meshes, const FrameBlock&);
+  void draw(std::span<const MeshBuffers> meshes, std::span<const std::vector<Vec3>> positions,
+            const FrameBlock&);
   /// The depth maps of what was drawn.
   const DepthMaps& depths() const { return depths_; }
   /// Binds all maps and tables where the shaders expect them.
@@ -40,8 +41,9 @@ public:
 
 private:
   void set_sky_map(const RenderScene&, FrameBlock&);
-  void draw_depth(const Framebuffer& target, int size, const Mat4& clip_from_world,
-                  std::span<const MeshBuffers> meshes, DepthMap&);
+  void draw_depth(const Mat4& clip_from_world, std::span<const MeshBuffers> meshes, DepthMap&);
+  void draw_sky(std::span<const MeshBuffers> meshes, std::span<const std::vector<Vec3>> positions,
+                const FrameBlock&);
   void draw_dots(const Mat4& clip_from_world, std::span<const MeshBuffers> meshes);
 
   RasterSettings settings_;
@@ -55,10 +57,10 @@ private:
     Texture irradiance_above, radiance_below, lobes_above, lobes_below, picture;
   };
   std::optional<SkyTextures> sky_textures_;
-  Framebuffer light_target_, sky_target_, ground_target_;
-  Renderbuffer light_depths_, sky_depths_;
+  Framebuffer light_target_, ground_target_;
+  Renderbuffer light_depths_;
   VertexArray no_attributes_;
-  std::vector<Mat4> light_views_, sky_views_;
+  std::vector<Mat4> light_views_;
   std::vector<CasterGrid> casters_;
   DepthMaps depths_;
   LitPixels ground_lit_;

@@ -284,7 +284,7 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
   const Mat4 clip_before =
       upload_frame(camera, frame.camera_before != nullptr ? *frame.camera_before : camera);
   gl_->maps.bind_textures();
-  if (lights_are_stale_) gl_->maps.draw(gl_->meshes, block_);
+  if (lights_are_stale_) gl_->maps.draw(gl_->meshes, positions_, block_);
   lights_are_stale_ = false;
 
   Image image(camera.width(), camera.height());
