@@ -1,5 +1,8 @@
 #include "apps/scene/unknown_key.h"
 
+#include <algorithm>
+#include <cctype>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -36,10 +39,29 @@ private:
   std::string path_, title_;
 };
 
+/// What other programs call it; "" where that is no key here.
+std::string by_another_name(const std::string& name, const std::vector<std::string>& known_here) {
+  static const std::map<std::string, std::string> names = {
+      {"albedo", "base_color"},     {"alpha", "opacity"},      {"clearcoat", "coat"},
+      {"color", "base_color"},      {"diffuse", "base_color"}, {"e", "young"},
+      {"metalness", "metallic"},    {"nu", "poisson"},         {"rho", "density"},
+      {"shininess", "roughness"},   {"specular", "ior"},       {"youngs_modulus", "young"},
+      {"poissons_ratio", "poisson"}};
+  std::string lower = name;
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto found = names.find(lower);
+  const bool here = found != names.end() &&
+                    std::find(known_here.begin(), known_here.end(), found->second) != known_here.end();
+  return here ? found->second : "";
+}
+
 }  // namespace
 
 std::string unknown_key_hint(const std::string& name, const std::vector<std::string>& known_here,
                              const std::string& where) {
+  const std::string meant = by_another_name(name, known_here);
+  if (!meant.empty()) return fmt::format("here it is '{}'", meant);
   const std::string near = nearest(name, known_here);
   if (!near.empty()) return fmt::format("did you mean '{}'?", near);
   SceneDesc any;

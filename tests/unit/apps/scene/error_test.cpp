@@ -188,6 +188,8 @@ TEST(WrongBody, Keys) {
              "[body.region.material]?"},
        Wrong{"young = 1",
              "a.toml:3:1: unknown key 'young'; it belongs in [body.material], [body.region.material]"},
+       Wrong{"look.shininess = 1", "a.toml:3:6: unknown key 'shininess'; here it is 'roughness'"},
+       Wrong{"material.E = 1e6", "a.toml:3:10: unknown key 'E'; here it is 'young'"},
        Wrong{"mass = 'lump'",
              "a.toml:3:8: unknown body.0.mass 'lump'; did you mean 'lumped'? Known are consistent, lumped"},
        Wrong{"name = ''", "a.toml:3:8: body.0.name = '' must be a plain file name: it is empty"},
