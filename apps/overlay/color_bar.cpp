@@ -57,14 +57,14 @@ struct BarLayout {
 
   double tick() const { return 0.9 * unit; }
   double bar_width() const { return 3.0 * unit; }
-  double tip() const { return std::round(2.4 * unit); }  // of a pointed end
+  double tip() const { return std::max(4.0, std::round(2.4 * unit)); }  // of a pointed end
   /// More than half a label, which has room at every end.
   double ends() const { return given ? std::max(0.0, tip() - 0.5 * text) : 0.0; }
   double gap() const { return std::max(2.2 * tick(), 4.0); }  // from the bar to its labels
   double column() const { return bar_width() + gap() + labels_width; }
   double width() const { return 2.0 * pad + std::max(title_width, column()); }
   double title_height() const { return text * (1.0 + line_pitch * static_cast<double>(title.size() - 1)); }
-  double above_bar() const { return 2.5 * pad + title_height() + ends(); }
+  double above_bar() const { return pad + title_height() + std::max(1.5 * pad, 1.3 * text) + ends(); }
   double height() const { return above_bar() + bar_height + ends() + 0.5 * text + pad; }
 };
 
