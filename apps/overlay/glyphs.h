@@ -105,6 +105,7 @@ inline constexpr std::array<std::string_view, 95> glyphs = {
     "0q1q2p2l3j2h2d1c0c",                          // }
     "0i1k2k4i5i6k",                                // ~
 };
+inline constexpr std::string_view at_most_glyph = "6q0m6i 0e6e", at_least_glyph = "0q6m0i 0e6e";
 /// Of what has no letter here.
 inline constexpr std::string_view box_glyph = "0e0q6q6e0e";
 

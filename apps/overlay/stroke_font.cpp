@@ -17,8 +17,11 @@ constexpr double pen = 0.135;  // width of a stroke over the height of capitals
 
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
-std::string_view glyph_of(char c) {
-  const auto code = static_cast<unsigned char>(c);
+/// Of the character that begins a text.
+std::string_view glyph_of(std::string_view text) {
+  if (text.starts_with("\u2264")) return at_most_glyph;
+  if (text.starts_with("\u2265")) return at_least_glyph;
+  const auto code = static_cast<unsigned char>(text.front());
   return code >= 0x20 && code < 0x20 + glyphs.size() ? glyphs[code - 0x20U] : box_glyph;
 }
 
@@ -52,8 +55,8 @@ std::vector<Segment> segments_of(std::string_view glyph, double x, double y, dou
 
 double text_width(std::string_view text, double height) {
   double units = 0;
-  for (const char c : text) {
-    if (!continues_character(c)) units += advance(glyph_of(c));
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (!continues_character(text[i])) units += advance(glyph_of(text.substr(i)));
   }
   return std::max(0.0, units - letter_space) * height / cap_units;
 }
@@ -61,11 +64,11 @@ double text_width(std::string_view text, double height) {
 void draw_text(render::Picture& picture, double x, double y, std::string_view text, const TextStyle& style) {
   const double unit = style.height / cap_units,
                width = std::max(1.0, (style.bold ? 1.5 : 1.0) * pen * style.height);
-  for (const char c : text) {
-    if (continues_character(c)) continue;
-    const std::vector<Segment> segments = segments_of(glyph_of(c), x, y, unit);
-    draw_strokes(picture, segments, width, style.color);
-    x += unit * advance(glyph_of(c));
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (continues_character(text[i])) continue;
+    const std::string_view glyph = glyph_of(text.substr(i));
+    draw_strokes(picture, segments_of(glyph, x, y, unit), width, style.color);
+    x += unit * advance(glyph);
   }
 }
 

@@ -16,7 +16,8 @@ struct TextStyle {
   bool bold = false;
 };
 
-/// Width of a text [pixels]. ASCII has letters; any other character of UTF-8 is an empty box.
+/// Width of a text [pixels]. ASCII has letters, and ≤ and ≥; any other character of UTF-8 is an empty
+/// box.
 double text_width(std::string_view text, double height);
 
 /// Writes a text into a picture, its first letter's left edge at x, its baseline at y; what lies outside is

@@ -1,5 +1,6 @@
 #include "apps/pipeline/finish_picture.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -23,19 +24,27 @@ CaptionValues caption_values(const SceneDesc& scene, int frame, const StateRecor
           .min_J = state.min_J};
 }
 
+/// Arrows have their name, where a body shows the same.
+std::vector<ColorBar> with_those_of(const Overlays& overlays, std::vector<ColorBar> bars) {
+  for (ColorBar& bar : overlays.bars()) {
+    const auto same = [&](const ColorBar& b) { return b.title == bar.title; };
+    if (std::any_of(bars.begin(), bars.end(), same)) bar.title = "arrows: " + bar.title;
+    bars.push_back(std::move(bar));
+  }
+  return bars;
+}
+
 }  // namespace
 
 std::vector<ColorBar> bars_of(const SurfaceFields& fields, const Overlays& overlays) {
-  std::vector<ColorBar> bars = fields.bars();
-  for (ColorBar& bar : overlays.bars()) bars.push_back(std::move(bar));
-  return bars;
+  return with_those_of(overlays, fields.bars());
 }
 
 render::Picture finish_picture(const RenderedFrame& frame, const SceneDesc& scene,
                                const SurfaceFields& fields, const Overlays& overlays, OverlayLayout layout) {
   render::Picture picture =
       render::tone_map(frame.image, scene.render.tone_curve, scene.render.exposure, scene.render.transparent);
-  const std::vector<ColorBar> bars = bars_of(fields, overlays);
+  const std::vector<ColorBar> bars = with_those_of(overlays, fields.bars(frame.state.q));
   const std::vector<Rectangle> bar_plates = place_color_bars(layout, bars);
   const std::string caption =
       caption_text(scene.caption.text, caption_values(scene, frame.state.frame, frame.told));

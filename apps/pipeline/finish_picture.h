@@ -29,7 +29,7 @@ struct RenderedFrame {
 render::Picture finish_picture(const RenderedFrame&, const SceneDesc&, const SurfaceFields&, const Overlays&,
                                OverlayLayout);
 
-/// What is told of the values in a picture.
+/// What is told of the values in pictures, but for whether one shows some beyond a given range.
 std::vector<ColorBar> bars_of(const SurfaceFields&, const Overlays&);
 
 /// The scene's caption over a picture.

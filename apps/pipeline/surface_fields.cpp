@@ -103,12 +103,44 @@ std::array<double, 2> SurfaceFields::range_of(const Scale& s) {
   return {low - 0.1 * size, high + 0.1 * size};
 }
 
+std::string SurfaceFields::names_of(std::size_t scale) const {
+  std::string names;
+  for (std::size_t body = 0; body < scale_of_body_.size(); ++body) {
+    if (scale_of_body_[body] != scale) continue;
+    names += (names.empty() ? "" : ", ") + scene_.body[body].physics.name;
+  }
+  return names;
+}
+
 std::vector<ColorBar> SurfaceFields::bars() const {
   std::vector<ColorBar> all;
-  for (const Scale& s : scales_) {
+  for (std::size_t i = 0; i < scales_.size(); ++i) {
+    const Scale& s = scales_[i];
+    if (!s.bar) continue;
     const auto [low, high] = range_of(s);
-    if (s.bar) all.push_back({s.field.title, s.field.unit, s.map, low, high});
+    const std::string title =
+        scales_.size() > 1 ? names_of(i) + ": " + s.field.title : std::string(s.field.title);
+    all.push_back({title, s.field.unit, s.map, low, high, !s.automatic});
   }
+  return all;
+}
+
+std::vector<ColorBar> SurfaceFields::bars(const sim::VecX& q) const {
+  std::vector<ColorBar> all = bars();
+  if (std::none_of(all.begin(), all.end(), [](const ColorBar& bar) { return bar.given; })) return all;
+  std::vector<std::size_t> bar_of(scales_.size(), none);
+  for (std::size_t i = 0, bar = 0; i < scales_.size(); ++i)
+    if (scales_[i].bar) bar_of[i] = bar++;
+  for_values(q, [&](std::size_t body, std::size_t scale, const std::vector<double>& values) {
+    if (bar_of[scale] == none || !scene_.body[body].surface.fill) return;
+    ColorBar& bar = all[bar_of[scale]];
+    if (!bar.given) return;
+    const double slack = 1e-6 * (bar.high - bar.low);  // values that are an end's but for rounding
+    for (const double value : values) {
+      bar.below = bar.below || value < bar.low - slack;
+      bar.above = bar.above || value > bar.high + slack;
+    }
+  });
   return all;
 }
 

@@ -35,8 +35,11 @@ public:
   /// out.
   void see(const sim::VecX& q);
 
-  /// What is told in the pictures: each range once, as it is now.
+  /// What is told in the pictures: each range once, as it is now; with its bodies' names where there are
+  /// others.
   std::vector<ColorBar> bars() const;
+  /// Those of a picture of positions q: with whether it shows values beyond a given range.
+  std::vector<ColorBar> bars(const sim::VecX& q) const;
   /// The ranges in use, by the body's name.
   std::map<std::string, std::array<double, 2>> ranges() const;
   /// Gives the renderer's meshes the colours of positions q.
@@ -54,6 +57,8 @@ private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   static std::array<double, 2> range_of(const Scale&);
+  /// Those of the bodies that have it.
+  std::string names_of(std::size_t scale) const;
   /// Calls with a body, its scale and the values on its surface.
   void for_values(const sim::VecX& q, const auto& visit) const;
 

@@ -238,8 +238,9 @@ void LightMaps::draw_depth(const Mat4& clip_from_world, std::span<const MeshBuff
     std::transform(read_.begin() + static_cast<std::ptrdiff_t>(range.begin()),
                    read_.begin() + static_cast<std::ptrdiff_t>(range.end()),
                    depths.begin() + static_cast<std::ptrdiff_t>(range.begin()), [](float d) {
-                     const auto step = static_cast<std::int32_t>(d * static_cast<float>(no_depth) + 0.5F);
-                     return static_cast<std::uint16_t>(d < 1.0F ? std::min(step, no_depth - 1) : no_depth);
+                     constexpr float most = no_depth - 1;
+                     const float step = std::clamp(d * static_cast<float>(no_depth) + 0.5F, 0.0F, most);
+                     return d < 1.0F ? static_cast<std::uint16_t>(step) : no_depth;
                    });
   });
 }

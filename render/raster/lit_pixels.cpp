@@ -14,7 +14,7 @@ namespace {
 constexpr Parts whole = {65535, 65535, 65535, 65535};
 
 std::uint16_t fraction(float x) {
-  return static_cast<std::uint16_t>(std::clamp(x, 0.0F, 1.0F) * 65535.0F + 0.5F);
+  return static_cast<std::uint16_t>(std::clamp(x * 65535.0F + 0.5F, 0.0F, 65535.0F));
 }
 
 /// Of a lane in its block, from the lower left.

@@ -23,8 +23,9 @@ bool is_dot(const SkyCaster& mesh, bool front, int x, int y) {
                                                           {0.1458980338F, 0.6180339887F}}};
   const int sheet = 2 * mesh.body + (front ? 0 : 1);
   const std::array<float, 2>& s = steps[static_cast<std::size_t>(sheet % 4)];
-  const float at = static_cast<float>(x) * s[0] + static_cast<float>(y) * s[1] +
-                   0.6180339887F * static_cast<float>(sheet / 4);
+  const int round = sheet / 4;  // of the four
+  const float at =
+      static_cast<float>(x) * s[0] + static_cast<float>(y) * s[1] + 0.6180339887F * static_cast<float>(round);
   return at - std::floor(at) < mesh.opacity;
 }
 

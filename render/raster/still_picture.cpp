@@ -26,15 +26,14 @@ StillPicture::StillPicture(const LightFeatures& features, int lights)
              {still_definitions(features, lights).c_str(), shaders::frame, shaders::brdf, shaders::sky,
               shaders::shade, shaders::ground_point, shaders::taken_fragment}) {
   glBindVertexArray(tiles_.id());
-  glBindBuffer(GL_ARRAY_BUFFER, tile_buffer_.id());
-  constexpr GLsizei stride = sizeof(TileRun);
-  glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, stride, nullptr);
-  glVertexAttribIPointer(1, 1, GL_UNSIGNED_INT, stride,
-                         reinterpret_cast<const void*>(offsetof(TileRun, lights_hidden)));
+  glVertexAttribFormat(0, 4, GL_FLOAT, GL_FALSE, 0);
+  glVertexAttribIFormat(1, 1, GL_UNSIGNED_INT, offsetof(TileRun, lights_hidden));
   for (const GLuint attribute : {0U, 1U}) {
+    glVertexAttribBinding(attribute, 0);
     glEnableVertexAttribArray(attribute);
-    glVertexAttribDivisor(attribute, 1);
   }
+  glBindVertexBuffer(0, tile_buffer_.id(), 0, sizeof(TileRun));
+  glVertexBindingDivisor(0, 1);  // a run an instance
 }
 
 StillPicture::Sized::Sized(int w, int h, int count) : width(w), height(h) {

@@ -10,6 +10,12 @@
 // sets.
 #define LAGOMORPH_INLINE inline __attribute__((always_inline))
 
+#if defined(__GNUC__) && !defined(__clang__)
+#define LAGOMORPH_SCALAR __attribute__((noinline, optimize("no-tree-vectorize", "no-tree-slp-vectorize")))
+#else
+#define LAGOMORPH_SCALAR
+#endif
+
 namespace lagomorph::render::raster {
 namespace {
 
@@ -51,6 +57,9 @@ const Lattice& lattice(int taps) {
   return lattices[static_cast<Index>(taps - 1)];
 }
 
+/// Without a branch.
+LAGOMORPH_INLINE bool both(bool a, bool b) { return (static_cast<int>(a) & static_cast<int>(b)) != 0; }
+
 LAGOMORPH_INLINE bool any(const std::array<int, lanes>& mask) {
   int sum = 0;
   for (Index l = 0; l < all; ++l) sum |= mask[l];
@@ -89,8 +98,8 @@ constexpr int batch = 4;
 using BatchIndices = std::array<std::int32_t, batch * lanes>;
 
 /// One by one: gathering by vector instructions takes twice as long.
-__attribute__((noinline, optimize("no-tree-vectorize", "no-tree-slp-vectorize"))) void look_up(
-    const DepthMap::value_type* map, const std::int32_t* at, Index count, std::int32_t* values) {
+LAGOMORPH_SCALAR void look_up(const DepthMap::value_type* map, const std::int32_t* at, Index count,
+                              std::int32_t* values) {
   for (Index i = 0; i < count; ++i) values[i] = map[at[i]];
 }
 
@@ -137,9 +146,9 @@ LAGOMORPH_INLINE void add_taps(const LightTaps& t, const Lattice& points, int ta
             static_cast<float>(depth[base + l]) * t.reciprocal_scale + t.reciprocal_offset;
         const float centre_x = (static_cast<float>(texel_x[base + l]) + 0.5F) * t.tangent_x + t.first_x;
         const float centre_y = (static_cast<float>(texel_y[base + l]) + 0.5F) * t.tangent_y + t.first_y;
-        const bool blocks =
-            (depth[base + l] != no_depth) & (reciprocal > t.reciprocal[l]) &
-            (t.normal.x[l] * centre_x + t.normal.y[l] * centre_y + t.normal.z[l] > t.plane[l] * reciprocal);
+        const bool blocks = both(
+            both(depth[base + l] != no_depth, reciprocal > t.reciprocal[l]),
+            t.normal.x[l] * centre_x + t.normal.y[l] * centre_y + t.normal.z[l] > t.plane[l] * reciprocal);
         s[l] += blocks ? part * reciprocal : 0.0F;
         c[l] += blocks ? part : 0.0F;
       }
@@ -295,7 +304,7 @@ LAGOMORPH_INLINE void add_hidden(const DepthMap::value_type* map, int size, cons
                              ? -1e9F
                              : 1.0F - scale * static_cast<float>(depth[base + l]) - from.at.z[l];
       const float above = from.normal.x[l] * dx + from.normal.y[l] * dy + from.normal.z[l] * rise;
-      const bool hides = (rise > least) & (above > least);
+      const bool hides = both(rise > least, above > least);
       hidden[l] += hides ? weight : 0.0F;
       height[l] += hides ? weight * rise : 0.0F;
     }

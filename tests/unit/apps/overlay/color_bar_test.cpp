@@ -142,6 +142,104 @@ TEST(ColorBar, ShrinksWithItsPanel) {
   EXPECT_EQ(color_bar_strip(24, 16, {stress()}), 0.0) << "no room";
 }
 
+ColorBar given(double low, double high, bool below, bool above) {
+  ColorBar bar = stress(low, high);
+  bar.given = true, bar.below = below, bar.above = above;
+  return bar;
+}
+
+TEST(ColorBar, LabelsTellValuesBeyondItsEnds) {
+  EXPECT_EQ(text(labels_of(given(0, 8e4, false, false))),
+            "von Mises stress (kPa): 0 10 20 30 40 50 60 70 80");
+  EXPECT_EQ(text(labels_of(given(0, 8e4, false, true))),
+            "von Mises stress (kPa): 0 10 20 30 40 50 60 70 ≥80");
+  EXPECT_EQ(text(labels_of(given(2e4, 8e4, true, false))), "von Mises stress (kPa): ≤20 30 40 50 60 70 80");
+  EXPECT_EQ(text(labels_of(given(1.87e4, 8.4321e4, true, true))),
+            "von Mises stress (kPa): ≤18.7 30 40 50 60 70 ≥84.32")
+      << "ends that are not round have labels then, and those close to them have none";
+}
+
+/// Of the map's first or last colour, in the middle of the bar.
+int rows_of_end(const render::Picture& picture, float value) {
+  const auto wanted = render::srgb_of(render::find_colormap("viridis"), value);
+  int most = 0;
+  for (int x = picture.width / 2; x < picture.width; ++x) {
+    int rows = 0;
+    for (int y = 0; y < picture.height; ++y) {
+      const Rgb is = pixel(picture, x, y);
+      bool same = true;
+      for (std::size_t c = 0; c < 3; ++c) same = same && std::abs(255.0F * wanted[c] - is[c]) < 1.5F;
+      rows += same ? 1 : 0;
+    }
+    most = std::max(most, rows);
+  }
+  return most;
+}
+
+TEST(ColorBar, EndsArePointedWhereValuesLieBeyond) {
+  const auto drawn = [](bool below, bool above) {
+    render::Picture picture = plain(1280, 720, 255);
+    draw_bars(picture, {given(0, 8e4, below, above)});
+    return picture;
+  };
+  const render::Picture none = drawn(false, false), low = drawn(true, false), high = drawn(false, true);
+  const int tip = 10;  // rows, of 17
+  EXPECT_GT(rows_of_end(low, 0.0F), rows_of_end(none, 0.0F) + tip);
+  EXPECT_EQ(rows_of_end(low, 1.0F), rows_of_end(none, 1.0F));
+  EXPECT_GT(rows_of_end(high, 1.0F), rows_of_end(none, 1.0F) + tip);
+  EXPECT_EQ(rows_of_end(high, 0.0F), rows_of_end(none, 0.0F));
+}
+
+/// A fitted camera depends on it, and plates do not jump from frame to frame.
+TEST(ColorBar, TakesTheSameRoomWhetherValuesLieBeyondOrNot) {
+  for (const auto& [width, height] : {std::array{1280, 720}, std::array{424, 238}, std::array{159, 89}}) {
+    OverlayLayout a(width, height), b(width, height);
+    const Rectangle inside = place_color_bars(a, {given(1.87e4, 8.4321e4, false, false)}).at(0),
+                    beyond = place_color_bars(b, {given(1.87e4, 8.4321e4, true, true)}).at(0);
+    EXPECT_EQ(inside.left, beyond.left) << width;
+    EXPECT_EQ(inside.top, beyond.top) << width;
+    EXPECT_EQ(inside.bottom, beyond.bottom) << width;
+  }
+}
+
+TEST(ColorBar, LabelsInSmallPicturesDoNotTouch) {
+  const ColorBar bars[] = {stress(),
+                           stress(0, 80),
+                           stress(1.1e4, 1.9e4),
+                           {"volume ratio J", "", &render::find_colormap("coolwarm"), 0.93, 1.07},
+                           given(1.87e4, 8.4321e4, true, true),
+                           given(0, 8e4, true, true)};
+  for (const auto& [width, height] : {std::array{1280, 720}, std::array{640, 360}, std::array{318, 178},
+                                      std::array{159, 89}, std::array{120, 80}}) {
+    const double bar_height = 42.0 * overlay_unit(width, height),
+                 letters = overlay_text_height(width, height);
+    for (const ColorBar& bar : bars) {
+      const BarLabels labels = labels_in(width, height, bar);
+      EXPECT_GE(labels.ticks.size(), 2U) << width << " " << labels.title;
+      for (std::size_t i = 1; i < labels.ticks.size(); ++i) {
+        const double apart = (labels.ticks[i].value - labels.ticks[i - 1].value) / (bar.high - bar.low);
+        EXPECT_GE(apart * bar_height, 1.3 * letters - 1e-9) << width << " " << text(labels);
+      }
+    }
+  }
+  EXPECT_EQ(text(labels_in(1280, 720, stress())), text(labels_of(stress())));
+}
+
+TEST(ColorBar, TakesAThirdOfASmallPanel) {
+  const ColorBar bars[] = {stress(),
+                           {"soft: displacement", "m", &render::find_colormap("viridis"), 0.0, 0.0123},
+                           {"elastic energy density", "J/m^3", &render::find_colormap("magma"), 0.0, 2.5},
+                           given(1.87e4, 8.4321e4, true, true)};
+  for (const auto& [width, height] : {std::array{159, 89}, std::array{318, 178}, std::array{212, 238}}) {
+    for (const ColorBar& bar : bars) {
+      OverlayLayout layout(width, height);
+      const std::vector<Rectangle> plates = place_color_bars(layout, {bar});
+      ASSERT_EQ(plates.size(), 1U) << bar.title << " " << width;
+      EXPECT_LE(plates[0].right - plates[0].left, 0.38 * width) << bar.title << " " << width;
+    }
+  }
+}
+
 TEST(ColorBar, SeveralStandBesideEachOther) {
   render::Picture one = plain(1280, 720, 255), two = one, none = one;
   const ColorBar other{"volume ratio J", "", &render::find_colormap("coolwarm"), 0.9, 1.1};

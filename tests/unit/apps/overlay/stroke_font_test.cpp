@@ -48,6 +48,14 @@ TEST(StrokeFont, DrawsABoxForWhatItHasNot) {
   EXPECT_EQ(text_width("éé", 12), text_width("ßß", 12));
 }
 
+TEST(StrokeFont, HasSignsOfBounds) {
+  EXPECT_NE(drawn("≤"), drawn("é"));
+  EXPECT_NE(drawn("≥"), drawn("é"));
+  EXPECT_NE(drawn("≤"), drawn("≥"));
+  EXPECT_NE(drawn("≤"), drawn("<"));
+  EXPECT_NEAR(text_width("≥80", 12), text_width(">80", 12), 1e-12);
+}
+
 TEST(StrokeFont, IsCutAtThePicturesEdge) {
   EXPECT_TRUE(is_empty(drawn("Wide", 40, 20)));
   EXPECT_TRUE(is_empty(drawn("Wide", -90, -20)));

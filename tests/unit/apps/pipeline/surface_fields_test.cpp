@@ -132,6 +132,65 @@ TEST(SurfaceFields, BodiesThatShowTheSameShareARangeAndABar) {
   EXPECT_EQ(two(", range = [0, 9], color_bar = false").second, 1U);
 }
 
+/// The titles of two bars, some of their looks given.
+std::vector<std::string> titles(const std::string& first, const std::string& second) {
+  const std::string body = "[[body]]\nmesh = 'bar.msh'\nlook = { field = ";
+  const SceneDesc scene =
+      parse_scene(body + first + " }\nname = 'soft'\n" + body + second + " }\nname = 'hard'\n",
+                  tests::data_file("run/two.toml"), {});
+  Progress quiet(true);
+  const sim::Model model = build_model(scene, quiet);
+  const std::vector<sim::Surface> surfaces = build_surfaces(scene, model, quiet);
+  std::vector<std::string> all;
+  for (const ColorBar& bar : SurfaceFields(scene, model, surfaces).bars()) all.push_back(bar.title);
+  return all;
+}
+
+TEST(SurfaceFields, BarsNameTheirBodiesUnlessOneStandsForAll) {
+  using Titles = std::vector<std::string>;
+  EXPECT_EQ(titles("'displacement'", "'displacement'"), (Titles{"displacement"}));
+  EXPECT_EQ(titles("'displacement'", "'displacement', colormap = 'magma'"),
+            (Titles{"soft: displacement", "hard: displacement"}));
+  EXPECT_EQ(titles("'displacement', range = [0, 1]", "'displacement', range = [0, 2]"),
+            (Titles{"soft: displacement", "hard: displacement"}));
+  EXPECT_EQ(titles("'displacement'", "'none'"), (Titles{"displacement"}));
+  EXPECT_EQ(titles("'displacement', color_bar = false", "'J'"), (Titles{"hard: volume ratio J"}));
+}
+
+/// Moved by 0.25 as a whole.
+TEST(SurfaceFields, BarsTellValuesBeyondAGivenRange) {
+  const auto bar_of = [](const std::string& range) {
+    Shown bar({"body.0.look.field=displacement", range});
+    sim::VecX q = bar.X;
+    for (Eigen::Index i = 2; i < q.size(); i += 3) q[i] += 0.25;
+    for (const bool seen : {false, true}) {  // whatever was seen before
+      if (seen) bar.fields.see(2.0 * q);
+      const ColorBar told = bar.fields.bars(q).at(0), plain = bar.fields.bars().at(0);
+      EXPECT_FALSE(plain.below || plain.above);
+      EXPECT_EQ(told.given, plain.given);
+      if (seen) return told;
+    }
+    return ColorBar{};
+  };
+  const auto told = [&](const std::string& range) {
+    const ColorBar bar = bar_of("body.0.look.range=" + range);
+    EXPECT_TRUE(bar.given);
+    return std::pair(bar.below, bar.above);
+  };
+  EXPECT_EQ(told("[0, 1]"), std::pair(false, false));
+  EXPECT_EQ(told("[0, 0.2]"), std::pair(false, true));
+  EXPECT_EQ(told("[0.3, 0.4]"), std::pair(true, false));
+  EXPECT_EQ(told("[0, 0.25]"), std::pair(false, false)) << "but for rounding";
+  const ColorBar automatic = bar_of("body.0.look.color_bar=true");
+  EXPECT_FALSE(automatic.given || automatic.below || automatic.above);
+  Shown shear({"body.0.look.field=displacement", "body.0.look.range=[0.01, 0.1]"});
+  sim::VecX q = shear.X;
+  for (Eigen::Index i = 0; i < q.size(); i += 3) q[i + 1] += 2.0 * q[i];
+  const ColorBar both = shear.fields.bars(q).at(0);
+  EXPECT_TRUE(both.below && both.above);
+  EXPECT_FALSE(shear.fields.bars(shear.X).at(0).above) << "of the positions only";
+}
+
 TEST(SurfaceFields, BarsTellTheFieldAndItsUnit) {
   const Shown bar({"body.0.look.field=von_mises", "body.0.look.range=[0, 2000.0]"});
   const std::vector<ColorBar> bars = bar.fields.bars();
