@@ -180,7 +180,8 @@ void resolve_sky(SkyDesc& sky, const Places& places) {
   } else if (sky.model == "physical") {
     sky.strength = 5.0F;
   } else if (becomes_another) {
-    sky.strength = SkyDesc{}.strength;
+    static const SkyDesc usual;
+    sky.strength = usual.strength;
   }
 }
 
