@@ -1,5 +1,6 @@
 #include "apps/export/formats.h"
 
+#include <cstdint>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,10 +15,23 @@
 namespace lagomorph::apps {
 namespace {
 
+/// Vertices that a pin holds, in some axis at least, when the state is reached.
+std::vector<std::uint8_t> pinned(const sim::Model& model, double t) {
+  std::vector<std::uint8_t> flags(static_cast<std::size_t>(model.mesh().vertex_count()), 0);
+  for (const int v : model.held(t).pins().vertices()) flags[static_cast<std::size_t>(v)] = 1;
+  return flags;
+}
+
+/// With the state's vectors, whatever the fields; of displacement the vector alone.
 std::string vtu(const ExportedScene& scene, const sim::State& state) {
   sim::TetMesh mesh = scene.model.mesh();
+  const sim::VecX moved = state.q - Eigen::Map<const sim::VecX>(mesh.X.data(), mesh.X.size());
   mesh.X = sim::as_points(state.q);
-  return sim::io::write_vtu(mesh, sim::fields_of(scene.model, state.q, scene.fields));
+  std::vector<std::string> scalars = scene.fields;
+  std::erase(scalars, "displacement");
+  return sim::io::write_vtu(mesh, sim::fields_of(scene.model, state.q, scalars),
+                            {{"displacement", moved}, {"velocity", state.qdot}},
+                            {{"pinned", pinned(scene.model, state.t)}});
 }
 
 /// The surfaces of all bodies, one after the other.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "apps/export/gltf_material.h"
 #include "apps/version.h"
 
 /// Names and numbers of the glTF 2.0 specification.
@@ -45,18 +46,6 @@ Json camera_json(const ExportedScene& exported) {
        {{"aspectRatio", aspect}, {"yfov", camera.fov * std::numbers::pi / 180.0}, {"znear", kNear * scale}}}};
 }
 
-Json material_json(const MovingMesh& mesh) {
-  const render::Material& look = mesh.look();
-  Json material = {{"name", mesh.name()},
-                   {"pbrMetallicRoughness",
-                    {{"baseColorFactor", {look.base_color.x(), look.base_color.y(), look.base_color.z(), 1}},
-                     {"metallicFactor", look.metallic},
-                     {"roughnessFactor", look.roughness}}},
-                   {"doubleSided", true}};
-  if (look.ior != 1.5F) material["extensions"]["KHR_materials_ior"] = {{"ior", look.ior}};
-  return material;
-}
-
 /// Buffer views, accessors, meshes and the animation, with the indices by which they know each other.
 class Document {
 public:
@@ -67,10 +56,8 @@ public:
     add_views();
     Json nodes = Json::array(), materials = Json::array(), meshes = Json::array();
     std::uint64_t index_at = 0, frame_at = 0;
-    bool has_ior = false;
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
-      has_ior = has_ior || meshes_[i].look().ior != 1.5F;
-      materials.push_back(material_json(meshes_[i]));
+      materials.push_back(gltf_material(meshes_[i], extents[i][0]));
       meshes.push_back(mesh_json(i, extents[i], index_at, frame_at));
       nodes.push_back({{"name", meshes_[i].name()}, {"mesh", i}});
       index_at += meshes_[i].triangles().size() * sizeof(render::Triangle);
@@ -81,7 +68,8 @@ public:
     Json roots = Json::array();
     for (std::size_t i = 0; i < nodes.size(); ++i) roots.push_back(i);
     Json file = {{"asset", {{"version", "2.0"}, {"generator", "Lagomorph " + version()}}}};
-    if (has_ior) file["extensionsUsed"] = {"KHR_materials_ior"};
+    const std::vector<std::string> extensions = extensions_of(materials);
+    if (!extensions.empty()) file["extensionsUsed"] = extensions;
     file["scene"] = 0;
     file["scenes"] = {{{"name", desc.name}, {"nodes", roots}}};
     file["nodes"] = nodes;

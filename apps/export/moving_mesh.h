@@ -36,6 +36,14 @@ private:
   std::optional<render::VertexNormals> normals_;
 };
 
+/// Whether a dielectric's part of the material is clear, or cloudy, inside.
+inline bool has_clear_inside(const render::Material& m) {
+  return m.transmission * (1.0F - m.metallic) > 0.0F;
+}
+inline bool has_cloudy_inside(const render::Material& m) {
+  return m.subsurface * (1.0F - m.metallic) * (1.0F - m.transmission) > 0.0F;
+}
+
 /// In the order of the bodies.
 std::vector<MovingMesh> moving_meshes(const ExportedScene&);
 

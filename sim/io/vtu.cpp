@@ -93,7 +93,8 @@ TetMesh read_vtu(const File& file, Remarks&) {
 
 std::string write_vtu(const TetMesh& mesh) { return write_vtu(mesh, {}); }
 
-std::string write_vtu(const TetMesh& mesh, const std::vector<Field>& fields) {
+std::string write_vtu(const TetMesh& mesh, const std::vector<Field>& fields,
+                      const std::vector<PointVectors>& vectors, const std::vector<PointFlags>& flags) {
   TextWriter out;
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
          "byte_order=\"LittleEndian\" "
@@ -119,9 +120,17 @@ std::string write_vtu(const TetMesh& mesh, const std::vector<Field>& fields) {
               std::vector<std::int32_t>(mesh.tags.begin(), mesh.tags.end()));
   for (const Field& field : fields) write_array(out, array_name(field), field.elements);
   out << "</CellData>\n";
-  if (!fields.empty()) {
-    out << "<PointData Scalars=\"" << fields.front().info.name << "\">\n";
+  if (!fields.empty() || !vectors.empty() || !flags.empty()) {
+    out << "<PointData";
+    if (!fields.empty()) out << " Scalars=\"" << fields.front().info.name << "\"";
+    if (!vectors.empty()) out << " Vectors=\"" << vectors.front().name << "\"";
+    out << ">\n";
     for (const Field& field : fields) write_array(out, array_name(field), field.vertices);
+    for (const PointVectors& v : vectors)
+      write_array(out, "type=\"Float64\" Name=\"" + std::string(v.name) + "\" NumberOfComponents=\"3\"",
+                  std::vector<double>(v.values.begin(), v.values.end()));
+    for (const PointFlags& f : flags)
+      write_array(out, "type=\"UInt8\" Name=\"" + std::string(f.name) + "\"", f.values);
     out << "</PointData>\n";
   }
   out << "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";

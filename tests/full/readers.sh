@@ -55,8 +55,11 @@ assert state.dtype == np.float64 and state.shape[1:] == (2, n, 3), state.shape
 vtu = meshio.read("run/export/frame_0002.vtu")
 assert np.array_equal(vtu.points, state[0, 0]), "exported points are not the state's"
 assert np.array_equal(vtu.cells_dict["tetra"], np.vstack([c.data for c in meshes[0].cells if c.type == "tetra"]))
-assert {"von_mises", "J", "energy_density", "displacement"} <= set(vtu.point_data) & set(vtu.cell_data), vtu
-assert np.allclose(vtu.point_data["displacement"], np.linalg.norm(state[0, 0] - meshes[0].points, axis=1))
+assert {"von_mises", "J", "energy_density"} <= set(vtu.point_data) & set(vtu.cell_data), vtu
+assert np.array_equal(vtu.point_data["displacement"], state[0, 0] - meshes[0].points)
+assert np.array_equal(vtu.point_data["velocity"], state[0, 1])
+pinned = vtu.point_data["pinned"] != 0
+assert 0 < pinned.sum() < n and np.array_equal(state[0, 0][pinned], meshes[0].points[pinned])
 e = [meshes[0].points[vtu.cells_dict["tetra"]], vtu.points[vtu.cells_dict["tetra"]]]
 volumes = [np.linalg.det(x[:, 1:] - x[:, :1]) for x in e]
 assert np.allclose(vtu.cell_data["J"][0], volumes[1] / volumes[0])

@@ -112,6 +112,66 @@ TEST_F(ExportSequence, GltfHasLookAndCamera) {
   EXPECT_NEAR(node["rotation"][1].get<double>(), 0.0, 1e-6);
 }
 
+/// Numbers that single precision holds exactly. The names are those of the extensions' specifications.
+TEST_F(ExportSequence, GltfHasTheLookOfTheKhronosExtensions) {
+  expect(0, simulate("run", Arguments{"--set",
+                                      "body.0.look={ base_color = [0.25, 0.5, 0.75], opacity = 0.5, "
+                                      "transmission = 0.5, absorption_color = [1, 0.5, 0.25], "
+                                      "absorption_distance = 0.125, coat = 0.75, coat_roughness = "
+                                      "0.25, sheen = 0.5, sheen_tint = [1, 0.5, 0.25], "
+                                      "sheen_roughness = 0.375 }"}));
+  exported("gltf", {"--frames", "2"});
+  exported("ply", {"--frames", "2"});
+  const Glb glb(read_all(at("run/export/bar.glb")));
+  Json material = glb.json["materials"].at(0);
+  EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorFactor"], Json::parse("[0.625, 0.75, 0.875, 0.5]"))
+      << "half of it clear, half of it there";
+  EXPECT_EQ(material["alphaMode"], "BLEND");
+  Json& extensions = material["extensions"];
+  const double thickness = extensions["KHR_materials_volume"]["thicknessFactor"].get<double>();
+  const sim::Points X = frame(2).X;
+  EXPECT_NEAR(thickness, (X.colwise().maxCoeff() - X.colwise().minCoeff()).minCoeff(), kRounding);
+  EXPECT_GT(thickness, 0.01);
+  extensions["KHR_materials_volume"].erase("thicknessFactor");
+  EXPECT_EQ(extensions, Json::parse(R"({
+    "KHR_materials_transmission": {"transmissionFactor": 0.5},
+    "KHR_materials_volume": {"attenuationColor": [1.0, 0.5, 0.25], "attenuationDistance": 0.125},
+    "KHR_materials_clearcoat": {"clearcoatFactor": 0.75, "clearcoatRoughnessFactor": 0.25},
+    "KHR_materials_sheen": {"sheenColorFactor": [0.5, 0.25, 0.125], "sheenRoughnessFactor": 0.375}})"));
+  EXPECT_EQ(glb.json["extensionsUsed"],
+            Json::parse(R"(["KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_clearcoat",
+                            "KHR_materials_sheen"])"));
+}
+
+TEST_F(ExportSequence, GltfUsesNoExtensionInVain) {
+  const auto material = [&](const char* name, const std::string& look) {
+    expect(0, simulate(name, {"--frames", "0", "--set", "body.0.look={ " + look + " }"}));
+    expect(0, {"export", at(name).string(), "--format", "gltf", "--quiet"});
+    const Glb glb(read_all(at(name) / "export/bar.glb"));
+    Json material = glb.json["materials"].at(0);
+    std::vector<std::string> used;  // each once, in no order that matters
+    if (material.contains("extensions"))
+      for (const auto& [extension, members] : material["extensions"].items()) used.push_back(extension);
+    std::vector<std::string> told = glb.json.value("extensionsUsed", std::vector<std::string>());
+    std::sort(told.begin(), told.end());
+    EXPECT_EQ(told, used);
+    return material;
+  };
+  EXPECT_EQ(material("plain", "").size(), 3U) << "name, pbrMetallicRoughness and doubleSided";
+  EXPECT_FALSE(material("metal", "metallic = 1, transmission = 1").contains("extensions"));
+  EXPECT_EQ(material("ior", "ior = 1.25")["extensions"],
+            Json::parse(R"({"KHR_materials_ior": {"ior": 1.25}})"));
+  const Json clear = material("clear", "transmission = 1");
+  EXPECT_FALSE(clear.contains("alphaMode")) << "which is for what is not there";
+  EXPECT_EQ(clear["pbrMetallicRoughness"]["baseColorFactor"], Json::parse("[1, 1, 1, 1]"));
+  EXPECT_EQ(clear["extensions"]["KHR_materials_volume"].size(), 1U) << "it absorbs nothing";
+  EXPECT_EQ(
+      material(
+          "cloudy",
+          "subsurface = 1, subsurface_color = [1, 0.5, 0.25]")["pbrMetallicRoughness"]["baseColorFactor"],
+      Json::parse("[1, 0.5, 0.25, 1]"));
+}
+
 TEST_F(ExportSequence, UsdHasSamplesByFrame) {
   expect(0, simulate("run"));
   exported("ply", {"--fields", "von_mises"});
