@@ -163,6 +163,7 @@ TEST_F(ExportSequence, GltfUsesNoExtensionInVain) {
             Json::parse(R"({"KHR_materials_ior": {"ior": 1.25}})"));
   const Json clear = material("clear", "transmission = 1");
   EXPECT_FALSE(clear.contains("alphaMode")) << "which is for what is not there";
+  EXPECT_FALSE(clear.contains("doubleSided")) << "the validator warns of it with a volume";
   EXPECT_EQ(clear["pbrMetallicRoughness"]["baseColorFactor"], Json::parse("[1, 1, 1, 1]"));
   EXPECT_EQ(clear["extensions"]["KHR_materials_volume"].size(), 1U) << "it absorbs nothing";
   EXPECT_EQ(
