@@ -120,6 +120,8 @@ ExitStatus export_command(const Options& options) {
     if (std::string_view(format.name) == "gltf" && zooms(scene.camera))
       progress.note(fmt::format("the camera keeps its field of view of frame {} in a .glb", frames.first));
   }
+  if (format.remarks != nullptr)
+    for (const std::string& line : format.remarks(exported)) progress.note(line);
   const fs::path out = options.out.value_or(run.root() / "export");
   remove_leftovers(out);
   const ExportedSequence sequence{

@@ -7,6 +7,7 @@
 
 #include "apps/error.h"
 #include "apps/export/gltf.h"
+#include "apps/export/look_remarks.h"
 #include "apps/export/usd.h"
 #include "apps/pipeline/surface_fields.h"
 #include "sim/io/field_writers.h"
@@ -66,11 +67,11 @@ std::string obj(const ExportedScene& scene, const sim::State& state) {
 }
 
 /// The explicit table: a new format is one row.
-constexpr ExportFormat formats[] = {{"vtu", ".vtu", true, true, vtu, nullptr},
-                                    {"ply", ".ply", true, false, ply, nullptr},
-                                    {"obj", ".obj", false, false, obj, nullptr},
-                                    {"gltf", ".glb", false, false, nullptr, write_gltf},
-                                    {"usda", ".usda", true, false, nullptr, write_usd}};
+constexpr ExportFormat formats[] = {{"vtu", ".vtu", true, true, vtu, nullptr, nullptr},
+                                    {"ply", ".ply", true, false, ply, nullptr, nullptr},
+                                    {"obj", ".obj", false, false, obj, nullptr, nullptr},
+                                    {"gltf", ".glb", false, false, nullptr, write_gltf, gltf_remarks},
+                                    {"usda", ".usda", true, false, nullptr, write_usd, usd_remarks}};
 
 }  // namespace
 

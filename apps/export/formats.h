@@ -47,7 +47,8 @@ struct ExportFormat {
   bool all_fields;                                                // when none is asked for
   std::string (*frame)(const ExportedScene&, const sim::State&);  // the file of a frame, or null
   bool (*sequence)(const ExportedSequence&,
-                   const std::filesystem::path& file);  // or that of all; false: stopped
+                   const std::filesystem::path& file);        // or that of all; false: stopped
+  std::vector<std::string> (*remarks)(const ExportedScene&);  // what of the look it leaves out, or null
 };
 
 /// Throws Error(wrong_input) that lists the formats for a name that is none.

@@ -28,7 +28,7 @@ Json gltf_material(const MovingMesh& mesh, const Extent& extent) {
                      {"metallicFactor", look.metallic},
                      {"roughnessFactor", look.roughness}}}};
   if (look.opacity < 1.0F) material["alphaMode"] = "BLEND";
-  material["doubleSided"] = true;
+  if (!has_clear_inside(look)) material["doubleSided"] = true;  // a volume has two sides as it is
   const auto extend = [&](const char* name, Json members) {
     material["extensions"][name] = std::move(members);
   };

@@ -14,6 +14,7 @@
 #include "apps/file_io.h"
 #include "apps/pipeline/surface_fields.h"
 #include "apps/version.h"
+#include "render/albedo.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -144,10 +145,18 @@ private:
     line("            token outputs:surface.connect = <{}/surface.outputs:surface>\n", material_path(body));
     line("            def Shader \"surface\"\n            {{");
     line("                uniform token info:id = \"UsdPreviewSurface\"");
-    line("                color3f inputs:diffuseColor = {}", text_of(look.base_color.matrix()));
+    line("                color3f inputs:diffuseColor = {}", text_of(render::albedo(look).matrix()));
     line("                float inputs:metallic = {}", look.metallic);
     line("                float inputs:roughness = {}", look.roughness);
     line("                float inputs:ior = {}", look.ior);
+    if (look.coat > 0.0F) {
+      line("                float inputs:clearcoat = {}", look.coat);
+      line("                float inputs:clearcoatRoughness = {}", look.coat_roughness);
+    }
+    if (look.opacity < 1.0F) {  // of what is there, highlights and all
+      line("                float inputs:opacity = {}", look.opacity);
+      line("                token inputs:opacityMode = \"presence\"");
+    }
     line("                token outputs:surface\n            }}\n        }}");
   }
 
@@ -175,6 +184,15 @@ private:
            return fmt::format("{}, {}, {}", t[0], t[1], t[2]);
          }));
     line("        rel material:binding = <{}>", material_path(body));
+    line(
+        "        color3f[] primvars:displayColor = [{}] (\n            interpolation = \"constant\"\n        "
+        ")",
+        text_of(render::albedo(mesh.look()).matrix()));
+    if (mesh.look().opacity < 1.0F)
+      line(
+          "        float[] primvars:displayOpacity = [{}] (\n            interpolation = \"constant\"\n      "
+          "  )",
+          mesh.look().opacity);
     line("        uniform token subdivisionScheme = \"none\"");
     std::string extents;
     const bool points = write_samples("point3f[] points", [&](const sim::State& state) {

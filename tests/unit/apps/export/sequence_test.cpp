@@ -163,6 +163,7 @@ TEST_F(ExportSequence, GltfUsesNoExtensionInVain) {
             Json::parse(R"({"KHR_materials_ior": {"ior": 1.25}})"));
   const Json clear = material("clear", "transmission = 1");
   EXPECT_FALSE(clear.contains("alphaMode")) << "which is for what is not there";
+  EXPECT_FALSE(clear.contains("doubleSided")) << "the validator warns of it with a volume";
   EXPECT_EQ(clear["pbrMetallicRoughness"]["baseColorFactor"], Json::parse("[1, 1, 1, 1]"));
   EXPECT_EQ(clear["extensions"]["KHR_materials_volume"].size(), 1U) << "it absorbs nothing";
   EXPECT_EQ(
@@ -212,6 +213,53 @@ TEST_F(ExportSequence, UsdHasSamplesByFrame) {
     EXPECT_EQ(stresses.size(), static_cast<std::size_t>(X.rows()));
     EXPECT_GT(*std::max_element(stresses.begin(), stresses.end()), 0.0);
   }
+}
+
+TEST_F(ExportSequence, UsdHasTheLookOfAPreviewSurface) {
+  const auto exported = [&](const char* name, const std::string& look) {
+    expect(0, simulate(name, {"--frames", "0", "--set", "body.0.look={ " + look + " }"}));
+    expect(0, {"export", at(name).string(), "--format", "usda", "--quiet"});
+    return read_all(at(name) / "export/bar.usda");
+  };
+  const std::string coated = exported("coated",
+                                      "base_color = [0.25, 0.5, 0.75], ior = 1.25, coat = 0.75, "
+                                      "coat_roughness = 0.125, opacity = 0.5");
+  for (const char* line : {"color3f inputs:diffuseColor = (0.25, 0.5, 0.75)\n", "float inputs:ior = 1.25\n",
+                           "float inputs:clearcoat = 0.75\n", "float inputs:clearcoatRoughness = 0.125\n",
+                           "float inputs:opacity = 0.5\n", "token inputs:opacityMode = \"presence\"\n",
+                           "color3f[] primvars:displayColor = [(0.25, 0.5, 0.75)] (\n",
+                           "float[] primvars:displayOpacity = [0.5] (\n"})
+    EXPECT_NE(coated.find(line), std::string::npos) << line;
+  const std::string plain = exported("plain", "base_color = [0.25, 0.5, 0.75]");
+  for (const char* word : {"clearcoat", "pacity"}) EXPECT_EQ(plain.find(word), std::string::npos) << word;
+  const std::string jelly = exported("jelly", "transmission = 1, absorption_color = [1, 0.5, 0.25]");
+  EXPECT_EQ(jelly.find("pacity"), std::string::npos) << "it is there";
+  EXPECT_NE(jelly.find("inputs:diffuseColor = (1, 0.5, 0.25)\n"), std::string::npos);
+}
+
+TEST_F(ExportSequence, WhatIsLeftOutOfALookIsTold) {
+  const auto said = [&](const std::string& format) {
+    const Ended ended = run_program({"export", at("run").string(), "--format", format});
+    EXPECT_EQ(ended.status, 0);
+    return ended.err;
+  };
+  expect(0, simulate("run", {"--frames", "0", "--set",
+                             "body.0.look={ transmission = 0.5, subsurface = 0.5, sheen = 0.5, coat = 0.5, "
+                             "opacity = 0.5, field = 'J' }"}));
+  EXPECT_NE(
+      said("gltf").find("gltf: subsurface (an opaque base of subsurface_color), the colours of J of body "
+                        "'bar' are left out\n"),
+      std::string::npos);
+  EXPECT_NE(
+      said("usda").find("usda: transmission (an opaque base of absorption_color), sheen, subsurface (an "
+                        "opaque base of subsurface_color), the colours of J of body 'bar' are left out\n"),
+      std::string::npos);
+  EXPECT_EQ(said("ply").find("left out"), std::string::npos) << "it has no look at all";
+  std::filesystem::remove_all(at("run"));
+  expect(0, simulate("run",
+                     {"--frames", "0", "--set", "body.0.look={ sheen = 0.5, coat = 0.5, opacity = 0.5 }"}));
+  EXPECT_EQ(said("gltf").find("left out"), std::string::npos);
+  EXPECT_NE(said("usda").find("usda: sheen of body 'bar' is left out\n"), std::string::npos);
 }
 
 /// A turntable of eight frames, of which these are three: a quarter of a turn in two.

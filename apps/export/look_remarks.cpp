@@ -1,0 +1,42 @@
+#include "apps/export/look_remarks.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "apps/export/moving_mesh.h"
+
+namespace lagomorph::apps {
+namespace {
+
+/// `lost` gives what the format has not, beyond what none has.
+template <class Lost>
+std::vector<std::string> remarks(const ExportedScene& scene, const char* format, Lost lost) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+    const BodyDesc& body = scene.desc.body[i];
+    std::vector<std::string> what = lost(body.look);
+    if (has_cloudy_inside(body.look)) what.emplace_back("subsurface (an opaque base of subsurface_color)");
+    if (body.shown.field != "none") what.push_back("the colours of " + body.shown.field);
+    if (!what.empty())
+      lines.push_back(fmt::format("{}: {} of body '{}' {} left out", format, fmt::join(what, ", "),
+                                  scene.model.mesh().bodies[i].name, what.size() == 1 ? "is" : "are"));
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::vector<std::string> gltf_remarks(const ExportedScene& scene) {
+  return remarks(scene, "gltf", [](const render::Material&) { return std::vector<std::string>(); });
+}
+
+std::vector<std::string> usd_remarks(const ExportedScene& scene) {
+  return remarks(scene, "usda", [](const render::Material& look) {
+    std::vector<std::string> what;
+    if (has_clear_inside(look)) what.emplace_back("transmission (an opaque base of absorption_color)");
+    if (look.sheen > 0.0F) what.emplace_back("sheen");
+    return what;
+  });
+}
+
+}  // namespace lagomorph::apps
