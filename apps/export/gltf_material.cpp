@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(const render::Color& c) { return {c.x(), c.y(), c.z()}; }
+Json factors_of(const render::Color& c) { return {c.x(), c.y(), c.z()}; }
 
 /// glTF tints what goes through the surface by the base colour, here it is clear: white as much as it is.
 render::Color base_color(render::Material look) {
@@ -37,7 +37,7 @@ Json gltf_material(const MovingMesh& mesh, const Extent& extent) {
     extend("KHR_materials_transmission", {{"transmissionFactor", look.transmission}});
     Json volume = {{"thicknessFactor", (extent.max - extent.min).minCoeff()}};
     if ((look.absorption_color != render::Color::Ones()).any()) {
-      volume["attenuationColor"] = json_of(look.absorption_color);
+      volume["attenuationColor"] = factors_of(look.absorption_color);
       volume["attenuationDistance"] = look.absorption_distance;
     }
     extend("KHR_materials_volume", std::move(volume));
@@ -46,7 +46,7 @@ Json gltf_material(const MovingMesh& mesh, const Extent& extent) {
     extend("KHR_materials_clearcoat",
            {{"clearcoatFactor", look.coat}, {"clearcoatRoughnessFactor", look.coat_roughness}});
   if (look.sheen > 0.0F)
-    extend("KHR_materials_sheen", {{"sheenColorFactor", json_of(look.sheen * look.sheen_tint)},
+    extend("KHR_materials_sheen", {{"sheenColorFactor", factors_of(look.sheen * look.sheen_tint)},
                                    {"sheenRoughnessFactor", look.sheen_roughness}});
   return material;
 }
