@@ -198,7 +198,7 @@ constexpr OptionRow option_rows[] = {
     {"--levels", "N", " refine ", "how often each tet is split in eight; 1, or with --order 0", apply_levels},
     {"--order", "1|2", " refine ", "linear or quadratic tets; by default as they are", apply_order},
     {"--set", "KEY=VALUE", " run simulate render info ",
-     "a scene key, as in body.0.density=500; VALUE is TOML or a string, none takes the key away", apply_set},
+     "a scene key, as in body.0.density=500; with no VALUE, it is taken away", apply_set},
     {"--set", "KEY=VALUE", " check ", "a key of golden.toml, as in limits.flip_mean=0.02", apply_set},
     {"--frames", "A..B", " run simulate render check approve preview export ",
      "only pictures A to B, both included; or one number",

@@ -68,7 +68,7 @@ TEST(RendererRemarks, SayWhatTheRasterizerDrawsInstead) {
   const std::vector<std::string> told = renderer_remarks(settings, {}, scene);
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0],
-            "raster: look of 'jelly': transmission is an opaque base of what absorption leaves of white "
+            "raster: look of 'jelly': transmission is an opaque base of absorption_color "
             "through its mean thickness; sheen is left out");
   settings.backend = "path";
   EXPECT_TRUE(renderer_remarks(settings, {}, scene).empty());
