@@ -41,12 +41,18 @@ private:
 
 /// What other programs call it; "" where that is no key here.
 std::string by_another_name(const std::string& name, const std::vector<std::string>& known_here) {
-  static const std::map<std::string, std::string> names = {
-      {"albedo", "base_color"},     {"alpha", "opacity"},      {"clearcoat", "coat"},
-      {"color", "base_color"},      {"diffuse", "base_color"}, {"e", "young"},
-      {"metalness", "metallic"},    {"nu", "poisson"},         {"rho", "density"},
-      {"shininess", "roughness"},   {"specular", "ior"},       {"youngs_modulus", "young"},
-      {"poissons_ratio", "poisson"}};
+  static const std::map<std::string, std::string> names = {{"albedo", "base_color"},
+                                                           {"alpha", "opacity"},
+                                                           {"clearcoat", "coat"},
+                                                           {"diffuse", "base_color"},
+                                                           {"e", "young"},
+                                                           {"metalness", "metallic"},
+                                                           {"nu", "poisson"},
+                                                           {"rho", "density"},
+                                                           {"shininess", "roughness"},
+                                                           {"specular", "ior"},
+                                                           {"youngs_modulus", "young"},
+                                                           {"poissons_ratio", "poisson"}};
   std::string lower = name;
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
