@@ -108,8 +108,7 @@ void visit_camera(CameraDesc& c, KeyVisitor& v) {
       {.name = "view",
        .meaning = "the side that is looked from, about look_at and as far from it as position is: front from "
                   "+z, right from +x, top from +y, isometric from between these three; from the bottom the "
-                  "ground is left out; none: "
-                  "from position",
+                  "ground is left out; none: from position",
        .choices = camera_views},
       &c.view);
   v.key({.name = "frame",

@@ -23,14 +23,12 @@ bool may_be_hidden(const LightBlock& light, const CasterGrid& casters, int shado
                    const std::array<Vec3, 4>& points) {
   Box2 box;
   float farthest = 0.0F;
-  float nearest = std::numeric_limits<float>::max();
   for (const Vec3& x : points) {
     const Vec3 d = x - light.position.head<3>();
     const float along = d.dot(light.normal.head<3>());
     if (!(along > 1e-3F)) return casters.meets(Vec2::Zero(), Vec2::Ones());
     box.add(Vec2(d.dot(light.right.head<3>()), d.dot(light.up.head<3>())) / along);
     farthest = std::max(farthest, along);
-    nearest = std::min(nearest, along);
   }
   if (1.0F / farthest >= light.depth.z()) return false;  // before all meshes
   const float reach = std::max(light.depth.z() - 1.0F / farthest, 0.0F);

@@ -33,7 +33,6 @@ constexpr int tile_size = 16;
 struct TileRun {
   float left, lower, right, upper;  // borders [pixels], from the lower left corner of the picture
   std::uint32_t lights_hidden;      // bit i: they may hide a part of light i
-  bool operator==(const TileRun&) const = default;
 };
 
 /// All tiles of the drawn rectangle in which the ground may be seen under a shadow of a mesh (a grid a light)

@@ -104,11 +104,11 @@ Sphere bounding_sphere(std::span<const std::vector<Vec3>> positions, const Eigen
 
 LightMaps::LightMaps(const RasterSettings& settings)
     : settings_(settings),
-      depth_program_("depth map", {shaders::depth_map_vertex}, {shaders::depth_map_fragment}) {
+      depth_program_("depth map", {shaders::depth_map_vertex}, {shaders::depth_map_fragment}),
+      ground_seen_(GL_TEXTURE1, ground_map_size, ground_map_size) {
   allocate_table(sky_table_, sky_table_size, 1, sky_irradiance_table(sky_table_size));
   allocate_table(coat_table_, coat_table_size, coat_table_size, coat_albedo_table(coat_table_size));
   allocate_depth(light_target_, light_depths_, settings_.shadow_map);
-  allocate_lit(ground_seen_, ground_map_size, ground_map_size);
   const int levels = static_cast<int>(std::log2(ground_map_size)) + 1;
   for (const Texture* texture : {&ground_ambient_, &ground_bounce_}) {
     glBindTexture(GL_TEXTURE_2D, texture->id());
@@ -288,9 +288,7 @@ void LightMaps::draw(std::span<const MeshBuffers> meshes, std::span<const std::v
   draw_sky(meshes, positions, block);
   if (!ground_) return;
   light_ground_map(block, depths_, ground_lit_);
-  glActiveTexture(GL_TEXTURE1);
-  glBindTexture(GL_TEXTURE_2D_ARRAY, ground_seen_.id());
-  upload_lit(ground_lit_, ground_map_size, ground_map_size);
+  ground_seen_.take(ground_lit_);
   bind(ground_target_, ground_map_size, ground_map_size);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);

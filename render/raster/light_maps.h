@@ -8,7 +8,7 @@
 #include "render/raster/caster_grid.h"
 #include "render/raster/frame_block.h"
 #include "render/raster/gl_objects.h"
-#include "render/raster/lit_pixels.h"
+#include "render/raster/lit_texture.h"
 #include "render/raster/mesh_buffers.h"
 #include "render/raster/programs.h"
 #include "render/render_scene.h"
@@ -51,7 +51,8 @@ private:
   std::optional<Program> see_through_depth_program_;  // compiled when it is needed
   std::optional<Program> ground_program_;             // for features_
   LightFeatures features_;
-  Texture sky_table_, coat_table_, ground_ambient_, ground_bounce_, ground_seen_;
+  Texture sky_table_, coat_table_, ground_ambient_, ground_bounce_;
+  LitTexture ground_seen_;
   /// A map of the sky, see sky_light.h.
   struct SkyTextures {
     Texture irradiance_above, radiance_below, lobes_above, lobes_below, picture;

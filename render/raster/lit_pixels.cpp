@@ -221,29 +221,6 @@ bool light_surfaces(const FrameBlock& frame, const DepthMaps& maps, const PixelR
   return true;
 }
 
-void allocate_lit(const Texture& texture, int width, int height) {
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D_ARRAY, texture.id());
-  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA16, width, height, 3);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-}
-
-void upload_lit(const LitPixels& lit, int width, int height) {
-  const int w = std::min(lit.at.width, width - lit.at.x), h = std::min(lit.at.height, height - lit.at.y);
-  if (w <= 0 || h <= 0) return;
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, lit.at.width);
-  GLint layer = 0;
-  for (const std::vector<Parts>* parts : {&lit.lights, &lit.diffuse, &lit.mirrored}) {
-    if (!parts->empty()) {
-      glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, lit.at.x, lit.at.y, layer, w, h, 1, GL_RGBA, GL_UNSIGNED_SHORT,
-                      parts->data());
-    }
-    ++layer;
-  }
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-}
-
 void light_ground_map(const FrameBlock& frame, const DepthMaps& maps, LitPixels& lit) {
   const int size = static_cast<int>(frame.counts[3]);
   lit.at = {0, 0, size, size};

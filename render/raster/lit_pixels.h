@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "render/raster/frame_block.h"
-#include "render/raster/gl_objects.h"
 #include "render/raster/ground_tiles.h"
 #include "render/raster/visibility.h"
 
@@ -40,9 +39,5 @@ bool light_surfaces(const FrameBlock&, const DepthMaps&, const PixelRectangle&, 
                     LitPixels&);
 /// Of the ground's map: lights, and what falls on it of the sky.
 void light_ground_map(const FrameBlock&, const DepthMaps&, LitPixels&);
-
-/// A texture of three layers for LitPixels, and what it has of them where it is bound.
-void allocate_lit(const Texture&, int width, int height);
-void upload_lit(const LitPixels&, int width, int height);
 
 }  // namespace lagomorph::render::raster

@@ -54,7 +54,7 @@ void Targets::attach_seen(const Texture& seen, const Texture* colors, const Rend
 }
 
 Targets::Targets(int width, int height, int samples, bool colors)
-    : width_(width), height_(height), samples_(samples) {
+    : width_(width), height_(height), samples_(samples), lit_(GL_TEXTURE0, width, height) {
   bind_seen();
   if (colors) colors_.emplace();
   attach_seen(seen_, colors ? &*colors_ : nullptr, seen_depth_);
@@ -74,8 +74,6 @@ Targets::Targets(int width, int height, int samples, bool colors)
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, surface_.id(), 0);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
   check_framebuffer("surfaces");
-
-  allocate_lit(lit_, width, height);
 }
 
 void Targets::copy_color(const Texture& from, const PixelRectangle& r) const {
@@ -91,16 +89,6 @@ void Targets::read_surface(const PixelRectangle& r, std::vector<SurfaceTexel>& t
   glPixelStorei(GL_PACK_ROW_LENGTH, r.width);
   glReadPixels(there.x, there.y, there.width, there.height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, texels.data());
   glPixelStorei(GL_PACK_ROW_LENGTH, 0);
-}
-
-void Targets::bind_lit_texture() const {
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D_ARRAY, lit_.id());
-}
-
-void Targets::take(const LitPixels& lit) const {
-  bind_lit_texture();
-  upload_lit(lit, width_, height_);
 }
 
 void Targets::clear_seen() const {

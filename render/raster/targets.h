@@ -6,7 +6,7 @@
 
 #include "render/image.h"
 #include "render/raster/gl_objects.h"
-#include "render/raster/lit_pixels.h"
+#include "render/raster/lit_texture.h"
 #include "render/raster/view_range.h"
 
 namespace lagomorph::render::raster {
@@ -37,8 +37,7 @@ public:
   /// Those of a rectangle, which may reach beyond the picture; nothing is there.
   void read_surface(const PixelRectangle&, std::vector<SurfaceTexel>&) const;
   /// Makes what was found of lights and sky the texture that the shaders read.
-  void take(const LitPixels&) const;
-  void bind_lit_texture() const;
+  void take(const LitPixels& lit) const { lit_.take(lit); }
   /// Binds a channel of one value a pixel, with the picture's depth buffer.
   void bind_depth();
 
@@ -75,7 +74,8 @@ private:
   };
 
   int width_, height_, samples_;
-  Texture seen_, color_, surface_, lit_, depth_channel_;
+  Texture seen_, color_, surface_, depth_channel_;
+  LitTexture lit_;
   std::optional<Texture> colors_;
   Renderbuffer seen_depth_, depth_;
   Framebuffer seen_target_, color_target_, surface_target_, depth_target_;
