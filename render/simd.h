@@ -7,3 +7,7 @@
 #else
 #define LAGOMORPH_RENDER_SIMD
 #endif
+
+/// Loops over lanes become vector instructions where they are inlined into functions of several instruction
+/// sets.
+#define LAGOMORPH_INLINE inline __attribute__((always_inline))

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
+#include <algorithm>
 
-#include "render/coat_albedo.h"
+#include "render/path/brdf_formulas.h"
 #include "render/path/sampler.h"
 #include "render/render_scene.h"
 
@@ -21,14 +21,7 @@ public:
   explicit Brdf(const Material&, float base_share = 1.0F);
 
   /// What only depends on the direction of the eye.
-  struct View {
-    Vec3 wo;
-    Color base;  // 1/sr, but for what depends on wi
-    Color f0;    // of the coat or metal
-    float f90;
-    float coat_probability;  // of sampling the coat
-    float alpha;
-    float root;         // cos_o (1 + 2 Lambda(wo))
+  struct View : BrdfView {
     float reflectance;  // about, in luminance
   };
   /// `least_alpha`: the coat is taken to be at least as rough. `base_color`: in place of the material's.
@@ -46,34 +39,21 @@ public:
   Sample sample(const View&, Pair) const;
 
   /// Part of the light along a cosine that passes the dielectric coat to its base.
-  float let_in(float cosine) const { return into_base(albedo(cosine)); }
+  float let_in(float cosine) const { return into_base(cosine); }
   /// Likewise of light that is spread as the cosine below, with what the coat reflects back to the base
   /// coming again: 1 in the cosine's mean.
   float let_out(float cosine) const { return let_in(cosine) / mean_into_base_; }
   /// Estimate of the luminance reflected of all that arrives.
   float reflectance(const View& v) const { return v.reflectance; }
 
-private:
-  /// Of the surface, by its base colour.
-  struct Tint {
-    Color base;  // its BRDF but for what the coat takes [1/sr]
-    Color f0;    // of the coat or metal
-    float f90;
-  };
-  Tint tint(const Color& base_color) const;
-  CoatAlbedo albedo(float cosine) const;
-  /// Part of the light from a direction that the dielectric coat lets through.
-  float into_base(const CoatAlbedo& a) const { return 1.0F - coat_f0_ * a.scale - coat_f90_ * a.offset; }
+  const BrdfConstants& constants() const { return constants_; }
 
-  static constexpr int intervals = 64;
-  std::array<CoatAlbedo, intervals + 1> albedo_;  // at cosines 0 .. 1
-  float mean_into_base_ = 0.0F;                   // 2 int into_base(c) c dc
-  Tint tint_;                                     // of the material's base colour
-  float metallic_;
-  float coat_f0_;  // of the dielectric
-  float coat_f90_;
-  float alpha_;
-  float base_share_;
+private:
+  /// Part of the light from a direction that the dielectric coat lets through.
+  float into_base(float cosine) const { return look_up(constants_.into_base, std::max(cosine, 0.0F)); }
+
+  BrdfConstants constants_;
+  float mean_into_base_ = 0.0F;  // 2 int into_base(c) c dc
 };
 
 /// Visible normals of GGX by spherical caps [Dupuy and Benyoub 2023]; the distribution of [Heitz 2018].

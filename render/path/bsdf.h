@@ -22,6 +22,7 @@ public:
   ~Bsdf();
 
   bool has_layers() const { return layers_ != nullptr; }
+  const Brdf& brdf() const { return brdf_; }
   bool transmits() const { return transmits_; }
   bool is_cloudy() const { return is_cloudy_; }
   const Absorption& absorption() const;

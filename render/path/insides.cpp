@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "render/path/path_batch.h"
 #include "render/path/path_tracer.h"
 
 /// What path_tracer.cpp leaves of the ways through bodies.
@@ -19,9 +20,10 @@ void PathTracer::add_light(std::uint32_t lane, const Color& light) {
 }
 
 /// Over a distance in a clear inside; nullptr: air.
-void PathTracer::absorb(Path& path, const Absorption* inside, double distance) {
-  if (inside != nullptr && !inside->is_clear())
-    path.throughput *= inside->transmittance(static_cast<float>(distance));
+void PathTracer::absorb(PathRows& paths, std::size_t path, const Absorption* inside, double distance) {
+  if (inside == nullptr || inside->is_clear()) return;
+  const F3 passed = f3(inside->transmittance(static_cast<float>(distance)));
+  paths.throughput.set(path, paths.throughput[path] * passed);
 }
 
 /// Turns the last vertex into a walk in its body, or leaves what light does without entering: by `choice`;
@@ -64,25 +66,27 @@ void PathTracer::leave_cloudy_insides() {
 
 /// Whether the path goes on behind the surface that its ray has met after as many others.
 bool PathTracer::passes(std::size_t path, std::uint32_t depth, std::uint32_t crossing) const {
-  if (hits_[path].mesh == MeshHit::none || crossing >= most_crossings) return false;
-  const float opacity = shading_.opacities[hits_[path].mesh];
+  const MeshHit& hit = batch_->hits[path];
+  if (hit.mesh == MeshHit::none || crossing >= most_crossings) return false;
+  const float opacity = shading_.opacities[hit.mesh];
   return opacity < 1.0F &&
-         paths_[path].samples.pair(first_crossing + depth * most_crossings + crossing).u >= opacity;
+         samples_of(paths_->lane[path]).pair(first_crossing + depth * most_crossings + crossing).u >= opacity;
 }
 
 /// Replaces the hits of paths that do not stop there by those further on along the same rays.
 void PathTracer::pass_through(std::uint32_t depth) {
   passing_.clear();
   passing_rays_.clear();
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
+  Row<MeshHit>& hits = batch_->hits;
+  for (std::size_t i = 0; i < paths_->rays.count; ++i) {
     if (!passes(i, depth, 0)) continue;
     passing_.push_back(i);
-    passing_rays_.push_back(rays_[i]);
+    passing_rays_.push_back(paths_->rays[i]);
   }
   for (std::uint32_t crossing = 1; !passing_.empty(); ++crossing) {
     for (std::size_t k = 0; k < passing_.size(); ++k) {
       Ray& ray = passing_rays_[k];
-      const MeshHit& hit = hits_[passing_[k]];
+      const MeshHit& hit = hits[passing_[k]];
       ray.origin = geometry_.behind(ray, hit, geometry_.meet(ray, hit));
     }
     passing_hits_.resize(passing_.size());
@@ -90,7 +94,7 @@ void PathTracer::pass_through(std::uint32_t depth) {
     std::size_t kept = 0;
     for (std::size_t k = 0; k < passing_.size(); ++k) {
       const std::size_t i = passing_[k];
-      hits_[i] = passing_hits_[k];
+      hits[i] = passing_hits_[k];
       if (!passes(i, depth, crossing)) continue;
       passing_[kept] = i;
       passing_rays_[kept++] = passing_rays_[k];
@@ -102,30 +106,31 @@ void PathTracer::pass_through(std::uint32_t depth) {
 
 /// Of the blocked shadow rays, those that only meet what is not opaque keep some of their light.
 void PathTracer::dim_shadows(Coherence coherence) {
+  ShadowRows& s = *shadows_;
   passing_.clear();
-  for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
-    if (blocked_[i] != 0) passing_.push_back(i);
+  for (std::size_t i = 0; i < s.rays.count; ++i) {
+    if (s.blocked[i] != 0) passing_.push_back(i);
   }
   for (std::uint32_t crossing = 0; !passing_.empty() && crossing < most_crossings; ++crossing) {
     passing_rays_.clear();
-    for (const std::size_t i : passing_) passing_rays_.push_back(shadow_rays_[i]);
+    for (const std::size_t i : passing_) passing_rays_.push_back(s.rays[i]);
     passing_hits_.resize(passing_.size());
     geometry_.caster().intersect(passing_rays_, coherence, passing_hits_);
     std::size_t kept = 0;
     for (std::size_t k = 0; k < passing_.size(); ++k) {
       const std::size_t i = passing_[k];
       const MeshHit& hit = passing_hits_[k];
-      blocked_[i] = 0;
+      s.blocked[i] = 0;
       if (hit.mesh == MeshHit::none) continue;
-      Ray& ray = shadow_rays_[i];
-      const SceneGeometry::TriangleHit at = geometry_.meet(ray, hit);
-      if (at.t >= static_cast<double>(shadow_distances_[i])) continue;
-      blocked_[i] = 1;
+      const Ray ray = s.rays[i];
+      const TriangleHit at = geometry_.meet(ray, hit);
+      if (at.t >= static_cast<double>(s.rays.far[i])) continue;
+      s.blocked[i] = 1;
       const float opacity = shading_.opacities[hit.mesh];
       if (opacity >= 1.0F) continue;
-      shadow_light_[i] *= 1.0F - opacity;
-      shadow_distances_[i] -= static_cast<float>(at.t);
-      ray.origin = geometry_.behind(ray, hit, at);
+      s.light.set(i, (1.0F - opacity) * s.light[i]);
+      s.rays.far[i] -= static_cast<float>(at.t);
+      s.rays.origin.set(i, f3(geometry_.behind(ray, hit, at)));
       passing_[kept++] = i;
     }
     passing_.resize(kept);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/camera.h"
+#include "render/path/light_formulas.h"
 #include "render/path/sampler.h"
 #include "render/render_scene.h"
 
@@ -33,13 +34,10 @@ public:
   /// sample()'s density of the direction from p to a point of the rectangle [1/sr].
   float pdf(const Vec3& p, const Vec3& point) const;
 
-private:
-  struct View;
-  View view_from(const Vec3& p) const;
-  float area_to_solid_angle(const Vec3& to_point) const;
+  const Rectangle& shape() const { return shape_; }
 
-  Vec3 center_, u_, v_, normal_;  // u, v: unit axes along width and height; the normal is the shining side
-  float width_, height_;
+private:
+  Rectangle shape_;
   Color radiance_;
   bool visible_;
 };

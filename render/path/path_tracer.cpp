@@ -5,14 +5,15 @@
 #include <limits>
 
 #include "render/path/microfacet.h"
+#include "render/path/path_batch.h"
 #include "render/path/tile_means.h"
 #include "render/path/tile_statistics.h"
 
 namespace lagomorph::render::path {
 namespace {
 
-constexpr std::size_t batch_size = 1024;
 constexpr std::size_t most_lights_at_once = 4;
+constexpr std::size_t most_lights_in_rows = 8;  // picked ones: all are sampled everywhere up to so many
 constexpr std::uint32_t roulette_depth = 3;
 
 // Names of the sample pairs; those of a surface are counted from surface_dimensions * (its depth + 1).
@@ -56,125 +57,202 @@ PathTracer::PathTracer(const SceneGeometry& geometry, const Shading& shading, co
       samples_(static_cast<std::uint32_t>(samples)),
       bounces_(static_cast<std::uint32_t>(settings.bounces)),
       clear_bounces_(static_cast<std::uint32_t>(settings.transmission_bounces)),
-      clamp_(settings.clamp) {
-  rays_.reserve(batch_size);
-  paths_.reserve(batch_size);
-  hits_.reserve(batch_size);
-  vertices_.reserve(batch_size);
-  shadow_rays_.reserve(batch_size);
-  shadow_distances_.reserve(batch_size);
-  shadow_light_.reserve(batch_size);
-  shadow_lanes_.reserve(batch_size);
-  blocked_.reserve(batch_size);
-  radiance_.reserve(batch_size);
-  times_.reserve(batch_size);
+      clamp_(settings.clamp),
+      paths_(std::make_unique<PathRows>()),
+      next_(std::make_unique<PathRows>()),
+      shadows_(std::make_unique<ShadowRows>()),
+      batch_(std::make_unique<Batch>()) {
+  for (RayRows* rays : {&paths_->rays, &next_->rays, &shadows_->rays}) rays->time.fill(1.0F);
+  batch_->meshes.resize(shading.brdfs.size() - 1);
 }
+
+PathTracer::PathTracer(PathTracer&&) noexcept = default;
+PathTracer::~PathTracer() = default;
 
 void PathTracer::trace(const Tile& tile, const FrameSamples& numbers, float* color,
                        TileStatistics* statistics, TileMeans* means) {
   const auto width = static_cast<std::uint32_t>(tile.x1 - tile.x0);
   const std::uint64_t total =
       static_cast<std::uint64_t>(width) * static_cast<std::uint32_t>(tile.y1 - tile.y0) * samples_;
+  const auto sample = [&](std::uint64_t i) {
+    const auto pixel = static_cast<std::uint32_t>(i / samples_);
+    return PixelSample{tile.x0 + static_cast<int>(pixel % width), tile.y0 + static_cast<int>(pixel / width),
+                       static_cast<int>(i % samples_)};
+  };
   Eigen::Array3d sum = Eigen::Array3d::Zero();
-  for (std::uint64_t first = 0; first < total; first += batch_size) {
-    const std::uint64_t count = std::min<std::uint64_t>(batch_size, total - first);
-    const auto place = [&](std::uint64_t i) {
-      const auto pixel = static_cast<std::uint32_t>(i / samples_);
-      return std::array<int, 2>{tile.x0 + static_cast<int>(pixel % width),
-                                tile.y0 + static_cast<int>(pixel / width)};
-    };
-    begin_batch(count, means != nullptr);
-    for (std::uint32_t lane = 0; lane < count; ++lane) {
-      const auto [x, y] = place(first + lane);
-      begin_path(lane, x, y, numbers.path(x, y, static_cast<int>((first + lane) % samples_)));
-    }
-    finish_batch();
-    for (std::uint32_t lane = 0; lane < count; ++lane) {
+  for (std::uint64_t first = 0; first < total;) {
+    const std::size_t count =
+        trace_some([&](std::size_t lane) { return sample(first + lane); }, total - first, numbers, means);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const PixelSample s = sample(first + lane);
       sum += radiance_[lane].cast<double>();
-      const auto [x, y] = place(first + lane);
-      if (statistics != nullptr)
-        statistics->add(x, y, static_cast<int>((first + lane) % samples_), radiance_[lane]);
-      if (means != nullptr) means->add(x, y, radiance_[lane], first_hits_[lane]);
+      if (statistics != nullptr) statistics->add(s.x, s.y, s.sample, radiance_[lane]);
       if ((first + lane + 1) % samples_ != 0) continue;
-      float* out = color + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width()) +
-                                static_cast<std::size_t>(x));
+      float* out = color + 3 * (static_cast<std::size_t>(s.y) * static_cast<std::size_t>(camera_.width()) +
+                                static_cast<std::size_t>(s.x));
       for (int k = 0; k < 3; ++k) out[k] = static_cast<float>(sum[k] / samples_);
       sum.setZero();
     }
+    first += count;
   }
 }
 
 void PathTracer::trace(std::span<const PixelSample> of, const FrameSamples& numbers,
                        std::span<Color> radiance, TileMeans* means) {
-  for (std::size_t first = 0; first < of.size(); first += batch_size) {
-    const std::size_t count = std::min(batch_size, of.size() - first);
-    begin_batch(count, means != nullptr);
-    for (std::uint32_t lane = 0; lane < count; ++lane) {
-      const PixelSample& s = of[first + lane];
-      begin_path(lane, s.x, s.y, numbers.path(s.x, s.y, s.sample));
-    }
-    finish_batch();
-    for (std::uint32_t lane = 0; means != nullptr && lane < count; ++lane)
-      means->add(of[first + lane].x, of[first + lane].y, radiance_[lane], first_hits_[lane]);
+  for (std::size_t first = 0; first < of.size();) {
+    const std::size_t count =
+        trace_some([&](std::size_t lane) { return of[first + lane]; }, of.size() - first, numbers, means);
     std::copy(radiance_.begin(), radiance_.end(), radiance.begin() + static_cast<std::ptrdiff_t>(first));
+    first += count;
   }
 }
 
-void PathTracer::begin_batch(std::size_t count, bool first_hits) {
-  rays_.clear();
-  paths_.clear();
+/// As many of the samples `of(0)` .. `of(most - 1)` as make a batch: those whose numbers have one key.
+template <class Samples>
+std::size_t PathTracer::trace_some(const Samples& of, std::uint64_t most, const FrameSamples& numbers,
+                                   TileMeans* means) {
+  Row<std::uint32_t>& number = numbers_;
+  std::array<PixelSample, batch_size> samples;
+  std::size_t count = 0;
+  for (; count < std::min<std::uint64_t>(batch_size, most); ++count) {
+    samples[count] = of(count);
+    const PathSamples own = numbers.path(samples[count].x, samples[count].y, samples[count].sample);
+    if (count == 0) key_ = own.key();
+    if (own.key() != key_) break;
+    number[count] = own.number();
+  }
   radiance_.assign(count, Color::Zero());
-  times_.clear();
-  first_hits_.assign(first_hits ? count : 0, FirstHit{});
+  indirect_.assign(count, 0);
+  first_hits_.assign(means != nullptr ? count : 0, FirstHit{});
+  begin_paths({samples.data(), count});
+  for (std::uint32_t depth = 0; paths_->rays.count > 0; ++depth) trace_batch(depth);
+  for (std::size_t lane = 0; means != nullptr && lane < count; ++lane)
+    means->add(samples[lane].x, samples[lane].y, radiance_[lane], first_hits_[lane]);
+  return count;
 }
 
-/// Lanes begin in order.
-void PathTracer::begin_path(std::uint32_t lane, int x, int y, const PathSamples& samples) {
-  const Pair s = samples.pair(pixel_dimension);
-  const float px = static_cast<float>(x) + 0.5F + filter_.offset(s.u);
-  const float py = static_cast<float>(y) + 0.5F + filter_.offset(s.v);
-  rays_.push_back(camera_.lens_radius() > 0.0F
-                      ? camera_.ray(px, py, aperture_.point(samples.pair(lens_dimension)))
-                      : camera_.ray(px, py));
-  paths_.push_back({Color::Ones(), 0.0F, 0.0F, std::numeric_limits<float>::infinity(), lane, samples});
-  if (moving_) times_.push_back(samples.pair(time_dimension).u);
-}
-
-void PathTracer::finish_batch() {
-  for (std::uint32_t depth = 0; !paths_.empty(); ++depth) trace_batch(depth);
+/// Path k is of lane k.
+void PathTracer::begin_paths(std::span<const PixelSample> of) {
+  PathRows& paths = *paths_;
+  PairRows& pairs = batch_->pairs;
+  paths.rays.count = of.size();
+  draw_pairs(pair_keys(key_, pixel_dimension), of.size(), numbers_.data(), pairs.u.data(), pairs.v.data());
+  const bool lens = camera_.lens_radius() > 0.0F;
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    const float px = static_cast<float>(of[i].x) + 0.5F + filter_.offset(pairs.u[i]);
+    const float py = static_cast<float>(of[i].y) + 0.5F + filter_.offset(pairs.v[i]);
+    const Ray ray =
+        lens ? camera_.ray(px, py, aperture_.point(samples_of(i).pair(lens_dimension))) : camera_.ray(px, py);
+    paths.rays.origin.set(i, f3(ray.origin));
+    paths.rays.direction.set(i, f3(ray.direction));
+    paths.throughput.set(i, {1.0F, 1.0F, 1.0F});
+    paths.bsdf_pdf[i] = 0.0F;
+    paths.sky_pdf[i] = 0.0F;
+    paths.least_pdf[i] = std::numeric_limits<float>::infinity();
+    paths.lane[i] = static_cast<std::uint32_t>(i);
+    paths.inside[i] = nullptr;
+    paths.clear[i] = 0;
+    paths.compressed[i] = 1.0F;
+    if (moving_) times_[i] = samples_of(i).pair(time_dimension).u;
+  }
 }
 
 void PathTracer::trace_batch(std::uint32_t depth) {
-  hits_.resize(rays_.size());
+  RayRows& rays = paths_->rays;
   if (moving_) {
-    for (std::size_t i = 0; i < rays_.size(); ++i) rays_[i].time = times_[paths_[i].lane];
+    for (std::size_t i = 0; i < rays.count; ++i) rays.time[i] = times_[paths_->lane[i]];
   }
-  geometry_.caster().intersect(rays_, depth == 0 ? Coherence::coherent : Coherence::incoherent, hits_);
+  geometry_.caster().intersect(rays, depth == 0 ? Coherence::coherent : Coherence::incoherent, batch_->hits);
   if (shading_.see_through) pass_through(depth);
-  if (depth == 0) indirect_.assign(radiance_.size(), 0);
+  meet_meshes();
+  meet_ground(geometry_.ground(), rays, batch_->ground);
+  if (depth > 0) meet_lights(depth - 1);
   arrive(depth);
   leave_cloudy_insides();
-  rays_.clear();
-  paths_.clear();
-  if (vertices_.empty()) return;
-  gather_lights(depth);
-  gather_suns(depth);
-  gather_sky(depth);
-  scatter(depth);
+  next_->rays.count = 0;
+  if (batch_->surfaces.count > 0 || !vertices_.empty()) {
+    gather_lights(depth);
+    gather_suns(depth);
+    gather_sky(depth);
+    scatter(depth);
+  }
+  std::swap(paths_, next_);
 }
 
-/// Ends the rays: light that they meet is added, surfaces become vertices.
+/// Where the rays meet triangles, mesh by mesh.
+void PathTracer::meet_meshes() {
+  Batch& b = *batch_;
+  const RayRows& rays = paths_->rays;
+  std::fill(b.meshes.begin(), b.meshes.end(), Range{0, 0});
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    if (b.hits[i].mesh != MeshHit::none) ++b.meshes[b.hits[i].mesh].last;
+  }
+  std::size_t placed = 0;
+  for (Range& mesh : b.meshes) {
+    const std::size_t count = mesh.last;
+    mesh = {placed, placed};
+    placed += count;
+  }
+  b.meetings.count = placed;
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    if (b.hits[i].mesh == MeshHit::none) continue;
+    const std::size_t at = b.meshes[b.hits[i].mesh].last++;
+    b.meeting[i] = static_cast<std::uint32_t>(at);
+    b.meetings.origin.set(at, rays.origin[i]);
+    b.meetings.direction.set(at, rays.direction[i]);
+    geometry_.put_corners(b.hits[i], rays.time[i], b.meetings, at);
+  }
+  meet_triangles(b.meetings);
+}
+
+/// Light of area lights and sky where scattered rays go, weighed against next-event estimation from where
+/// they left, at depth `from`.
+void PathTracer::meet_lights(std::uint32_t from) {
+  Batch& b = *batch_;
+  const PathRows& paths = *paths_;
+  const RayRows& rays = paths.rays;
+  for (Row<float>* row : {&b.met.x, &b.met.y, &b.met.z}) std::fill_n(row->begin(), rays.count, 0.0F);
+  for (std::size_t k = 0; k < shading_.lights.size(); ++k) {
+    const RectangleLight& light = shading_.lights[k];
+    meet_light(light.shape(), rays, b.to_light);
+    for (std::size_t i = 0; i < rays.count; ++i) {
+      const float distance = b.to_light[i];
+      if (distance <= 0.0F) continue;
+      const Ahead ahead = look(i);
+      if (distance >= ahead.t) continue;
+      const float through = distance < ahead.ground ? 1.0F : 1.0F - ahead.opacity;
+      const Ray ray = rays[i];
+      const float pdf =
+          pick_probability(k, from) * light.pdf(ray.origin, ray.origin + distance * ray.direction);
+      const float weight = through * power_heuristic(paths.bsdf_pdf[i], pdf);
+      b.met.set(i, b.met[i] + weight * f3(light.radiance()));
+    }
+  }
+  if (!shading_.sky.map) sky_behind(shading_.gradient(), rays, b.sky);
+}
+
+/// Ends the rays: light that they meet is added, surfaces are arrived at.
 void PathTracer::arrive(std::uint32_t depth) {
+  Batch& b = *batch_;
+  PathRows& paths = *paths_;
+  SurfaceRows& s = b.surfaces;
   vertices_.clear();
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
-    const Ray& ray = rays_[i];
-    Path& path = paths_[i];
-    Ahead ahead = look(ray, hits_[i]);
-    add_light(path.lane, depth == 0 ? seen_by_camera(ray, ahead)
-                                    : path.throughput * light_met(ray, path, depth - 1, ahead));
+  const std::size_t on_meshes = b.meetings.count;
+  std::fill_n(s.alive.begin(), on_meshes, 0U);
+  s.count = on_meshes;
+  bool any = false;
+  for (std::size_t i = 0; i < paths.rays.count; ++i) {
+    const std::uint32_t lane = paths.lane[i];
+    Ahead ahead = look(i);
+    if (depth == 0) {
+      add_light(lane, seen_by_camera(paths.rays[i], ahead));
+    } else {
+      const Color light = light_met(i, ahead);
+      if (light.maxCoeff() > 0.0F) add_light(lane, color(paths.throughput[i]) * light);
+    }
     const bool keep = depth == 0 && !first_hits_.empty();
-    if (keep) first_hits_[path.lane].on_light = ahead.on_light;
-    if (depth > bounces_ + path.clear) continue;
+    if (keep) first_hits_[lane].on_light = ahead.on_light;
+    if (depth > bounces_ + paths.clear[i]) continue;
     float share = 1.0F;
     if (ahead.ground < SceneGeometry::never) {
       // A fading ground before a mesh: the path takes one of them. Before the sky, whose light is added
@@ -182,47 +260,125 @@ void PathTracer::arrive(std::uint32_t depth) {
       if (!ahead.on_mesh) {
         share = ahead.opacity;
       } else if (ahead.opacity < 1.0F &&
-                 path.samples.pair(dimension(depth, through_dimension)).u >= ahead.opacity) {
+                 samples_of(lane).pair(dimension(depth, through_dimension)).u >= ahead.opacity) {
         ahead.ground = SceneGeometry::never;
       }
     }
-    indirect_[path.lane] = depth > path.clear ? 1 : 0;
-    if (ahead.ground < SceneGeometry::never) {
-      absorb(path, path.inside, ahead.ground);
-      const SurfacePoint at = geometry_.arrive_at_ground(ray, ahead.ground);
-      const std::optional<Color> color = shading_.textured_ground(geometry_.ground_point(ray, ahead.ground));
-      if (keep) {
-        keep_first_hit(path.lane, at, color.value_or(shading_.albedos.back()),
-                       camera_.depth(ray, ahead.ground), share);
-      }
-      begin_vertex(at, ray, path, shading_.ground_brdf(), share, color ? &*color : nullptr);
-    } else if (ahead.on_mesh) {
-      const SurfacePoint at = geometry_.arrive(ray, hits_[i], ahead.mesh);
-      const std::optional<Color> color = geometry_.color_at(hits_[i], ahead.mesh);
-      const Bsdf& bsdf = shading_.brdfs[hits_[i].mesh];
-      if (keep) {
-        keep_first_hit(path.lane, at, color.value_or(shading_.albedos[hits_[i].mesh]),
-                       camera_.depth(ray, ahead.mesh.t), 1.0F);
-      }
-      // A ray that comes to a back side without having gone in, as from an eye within a body, was in it.
-      const bool from_within = path.inside == nullptr && at.inside && bsdf.transmits();
-      absorb(path, from_within ? &bsdf.absorption() : path.inside, ahead.mesh.t);
-      begin_vertex(at, ray, path, bsdf, 1.0F, color ? &*color : nullptr);
-      if (!at.inside && bsdf.is_cloudy()) {
-        const Pair choice = path.samples.pair(dimension(depth, entry_dimension));
-        enter_cloudy_inside(ray, hits_[i], at.beyond, choice.u,
-                            path.samples.pair(dimension(depth, scatter_dimension)), depth);
-      }
+    indirect_[lane] = depth > paths.clear[i] ? 1 : 0;
+    const bool on_ground = ahead.ground < SceneGeometry::never;
+    if (!on_ground && !ahead.on_mesh) continue;
+    const std::size_t mesh = on_ground ? shading_.brdfs.size() - 1 : b.hits[i].mesh;
+    const Bsdf& bsdf = shading_.brdfs[mesh];
+    if (bsdf.has_layers()) {
+      arrive_at_layers(i, ahead, depth, share);
+      continue;
     }
+    any = true;
+    const double distance = on_ground ? ahead.ground : ahead.t;
+    absorb(paths, i, paths.inside[i], distance);
+    std::optional<Color> own;
+    std::size_t at = 0;
+    if (on_ground) {
+      at = s.count++;
+      const Vec3 point = geometry_.ground_point(paths.rays[i], distance);
+      s.origin.set(at, f3(point));
+      s.arrival.set(at, paths.rays.direction[i]);
+      own = shading_.textured_ground(point);
+    } else {
+      at = b.meeting[i];
+      own = geometry_.color_at(b.hits[i], hit_of(i));
+    }
+    s.alive[at] = 1;
+    s.path[at] = static_cast<std::uint32_t>(i);
+    s.lane[at] = lane;
+    s.number[at] = numbers_[lane];
+    s.throughput.set(at, share * paths.throughput[i]);
+    s.least_pdf[at] = paths.least_pdf[i];
+    s.base_color.set(at, own ? f3(*own) : bsdf.brdf().constants().base_color);
+    if (keep) {
+      first_hits_[lane].albedo = own.value_or(shading_.albedos[mesh]);
+      first_hits_[lane].depth = camera_.depth(paths.rays[i], distance);
+      first_hits_[lane].opacity = share;
+    }
+  }
+  if (any) {
+    see_surfaces(on_meshes);
+  } else {
+    s.count = 0;
+    b.ranges.clear();
+  }
+  if (depth > 0 || first_hits_.empty()) return;
+  for (std::size_t i = 0; i < s.count; ++i) {
+    if (s.alive[i] != 0) first_hits_[s.lane[i]].normal = vec3(s.unbent[i]);
   }
 }
 
-PathTracer::Ahead PathTracer::look(const Ray& ray, const MeshHit& hit) const {
-  Ahead ahead{{SceneGeometry::never, 0.0, 0.0}, geometry_.meet_ground(ray), 0.0F, hit.mesh != MeshHit::none};
-  if (ahead.on_mesh) ahead.mesh = geometry_.meet(ray, hit);
-  if (ahead.ground < ahead.mesh.t) {
-    ahead.opacity = 1.0F - ground_fade(shading_.ground, geometry_.ground_point(ray, ahead.ground));
+/// The surfaces of Brdfs alone, of meetings and then of the ground.
+void PathTracer::see_surfaces(std::size_t on_meshes) {
+  Batch& b = *batch_;
+  b.ranges.clear();
+  for (std::size_t mesh = 0; mesh < b.meshes.size(); ++mesh) {
+    const Bsdf& bsdf = shading_.brdfs[mesh];
+    const Range range = b.meshes[mesh];
+    if (range.first == range.last || bsdf.has_layers()) continue;
+    arrive_on_mesh(b.meetings, range, geometry_.is_smooth(mesh), geometry_.ground(), b.surfaces);
+    b.ranges.push_back({range, &bsdf.brdf().constants()});
   }
+  if (b.surfaces.count > on_meshes) {
+    const Range range{on_meshes, b.surfaces.count};
+    arrive_on_ground(range, b.surfaces);
+    b.ranges.push_back({range, &shading_.ground_brdf().brdf().constants()});
+  }
+  for (const SurfaceRange& r : b.ranges) view_surfaces(*r.material, r.range, b.surfaces);
+}
+
+/// A surface with layers becomes a vertex.
+void PathTracer::arrive_at_layers(std::size_t i, const Ahead& ahead, std::uint32_t depth, float share) {
+  PathRows& paths = *paths_;
+  const Ray ray = paths.rays[i];
+  const std::uint32_t lane = paths.lane[i];
+  const bool keep = depth == 0 && !first_hits_.empty();
+  if (ahead.ground < SceneGeometry::never) {
+    absorb(paths, i, paths.inside[i], ahead.ground);
+    const SurfacePoint at = geometry_.arrive_at_ground(ray, ahead.ground);
+    const std::optional<Color> own = shading_.textured_ground(geometry_.ground_point(ray, ahead.ground));
+    if (keep) {
+      keep_first_hit(lane, at, own.value_or(shading_.albedos.back()), camera_.depth(ray, ahead.ground),
+                     share);
+    }
+    begin_vertex(at, ray, i, shading_.ground_brdf(), share, own ? &*own : nullptr);
+    return;
+  }
+  const MeshHit& hit = batch_->hits[i];
+  const TriangleHit met = hit_of(i);
+  const SurfacePoint at = geometry_.arrive(ray, hit, met);
+  const std::optional<Color> own = geometry_.color_at(hit, met);
+  const Bsdf& bsdf = shading_.brdfs[hit.mesh];
+  if (keep)
+    keep_first_hit(lane, at, own.value_or(shading_.albedos[hit.mesh]), camera_.depth(ray, met.t), 1.0F);
+  // A ray that comes to a back side without having gone in, as from an eye within a body, was in it.
+  const bool from_within = paths.inside[i] == nullptr && at.inside && bsdf.transmits();
+  absorb(paths, i, from_within ? &bsdf.absorption() : paths.inside[i], met.t);
+  begin_vertex(at, ray, i, bsdf, 1.0F, own ? &*own : nullptr);
+  if (!at.inside && bsdf.is_cloudy()) {
+    const PathSamples samples = samples_of(lane);
+    enter_cloudy_inside(ray, hit, at.beyond, samples.pair(dimension(depth, entry_dimension)).u,
+                        samples.pair(dimension(depth, scatter_dimension)), depth);
+  }
+}
+
+TriangleHit PathTracer::hit_of(std::size_t path) const {
+  const Meetings& m = batch_->meetings;
+  const std::size_t at = batch_->meeting[path];
+  return {m.t[at], m.u[at], m.v[at]};
+}
+
+PathTracer::Ahead PathTracer::look(std::size_t path) const {
+  const Batch& b = *batch_;
+  const bool on_mesh = b.hits[path].mesh != MeshHit::none;
+  Ahead ahead{on_mesh ? b.meetings.t[b.meeting[path]] : SceneGeometry::never, b.ground.t[path], 0.0F,
+              on_mesh};
+  if (ahead.ground < ahead.t) ahead.opacity = b.ground.opacity[path];
   if (ahead.opacity <= 0.0F) ahead.ground = SceneGeometry::never;
   return ahead;
 }
@@ -230,7 +386,7 @@ PathTracer::Ahead PathTracer::look(const Ray& ray, const MeshHit& hit) const {
 /// What a camera ray sees besides surfaces: a visible light, which hides what is behind it, or the
 /// background.
 Color PathTracer::seen_by_camera(const Ray& ray, Ahead& ahead) const {
-  double nearest = ahead.mesh.t;
+  double nearest = ahead.t;
   Color light = Color::Zero();
   for (const RectangleLight& l : shading_.lights) {
     if (!l.visible()) continue;
@@ -240,7 +396,7 @@ Color PathTracer::seen_by_camera(const Ray& ray, Ahead& ahead) const {
     ahead.on_light = true;
     light = l.radiance();
   }
-  if (nearest < ahead.mesh.t) {
+  if (nearest < ahead.t) {
     ahead.on_mesh = false;
     if (nearest < ahead.ground) {
       ahead.ground = SceneGeometry::never;
@@ -254,28 +410,21 @@ Color PathTracer::seen_by_camera(const Ray& ray, Ahead& ahead) const {
   return (1.0F - ahead.opacity) * light;
 }
 
-/// Light that a scattered ray meets, weighed against next-event estimation from where it left, at depth
-/// `from`.
-Color PathTracer::light_met(const Ray& ray, const Path& path, std::uint32_t from, const Ahead& ahead) const {
-  Color light = Color::Zero();
-  for (std::size_t k = 0; k < shading_.lights.size(); ++k) {
-    const RectangleLight& l = shading_.lights[k];
-    const RectangleLight::Hit hit = l.intersect(ray);
-    if (hit.distance <= 0.0F || hit.distance >= ahead.mesh.t) continue;
-    const float through = hit.distance < ahead.ground ? 1.0F : 1.0F - ahead.opacity;
-    const float pdf = pick_probability(k, from) * l.pdf(ray.origin, hit.point);
-    light += (through * power_heuristic(path.bsdf_pdf, pdf)) * l.radiance();
-  }
-  if (!ahead.on_mesh && ahead.opacity < 1.0F) {
-    const float sky_pdf = shading_.sky_sampler ? shading_.sky_sampler->pdf(ray.direction) : path.sky_pdf;
-    const float weight = power_heuristic(path.bsdf_pdf, sky_pdf);
-    light += ((1.0F - ahead.opacity) * weight) * sky_radiance(shading_.sky, ray.direction);
-    for (std::size_t k = 0; k < shading_.suns.size(); ++k) {
-      const SunLight& sun = shading_.suns[k];
-      if (!sun.contains(ray.direction)) continue;
-      const float of_sun = power_heuristic(path.bsdf_pdf, shading_.sun_pick[k] * sun.pdf());
-      light += ((1.0F - ahead.opacity) * of_sun) * sun.radiance();
-    }
+/// Light that a scattered ray meets, weighed against next-event estimation from where it left.
+Color PathTracer::light_met(std::size_t i, const Ahead& ahead) const {
+  const Batch& b = *batch_;
+  const PathRows& paths = *paths_;
+  Color light = color(b.met[i]);
+  if (ahead.on_mesh || ahead.opacity >= 1.0F) return light;
+  const Vec3 direction = vec3(paths.rays.direction[i]);
+  const float sky_pdf = shading_.sky_sampler ? shading_.sky_sampler->pdf(direction) : paths.sky_pdf[i];
+  const float weight = (1.0F - ahead.opacity) * power_heuristic(paths.bsdf_pdf[i], sky_pdf);
+  light += weight * (shading_.sky.map ? sky_radiance(shading_.sky, direction) : color(b.sky[i]));
+  for (std::size_t k = 0; k < shading_.suns.size(); ++k) {
+    const SunLight& sun = shading_.suns[k];
+    if (!sun.contains(direction)) continue;
+    const float of_sun = power_heuristic(paths.bsdf_pdf[i], shading_.sun_pick[k] * sun.pdf());
+    light += ((1.0F - ahead.opacity) * of_sun) * sun.radiance();
   }
   return light;
 }
@@ -289,8 +438,9 @@ void PathTracer::keep_first_hit(std::uint32_t lane, const SurfacePoint& at, cons
   hit.opacity = opacity;
 }
 
-void PathTracer::begin_vertex(const SurfacePoint& at, const Ray& ray, const Path& path, const Bsdf& brdf,
+void PathTracer::begin_vertex(const SurfacePoint& at, const Ray& ray, std::size_t path, const Bsdf& brdf,
                               float share, const Color* base_color) {
+  const PathRows& paths = *paths_;
   Vertex& v = vertices_.emplace_back();
   const bool turned = at.inside && brdf.transmits();
   v.origin = turned ? at.beyond : at.origin;
@@ -298,16 +448,16 @@ void PathTracer::begin_vertex(const SurfacePoint& at, const Ray& ray, const Path
   v.n = turned ? Vec3(-at.normal) : at.normal;
   make_frame(v.n, v.t, v.b);
   v.brdf = &brdf;
-  const float least_alpha = path.least_pdf < 1.0F ? 0.5F * std::sqrt(1.0F - path.least_pdf) : 0.0F;
+  v.least_pdf = paths.least_pdf[path];
+  const float least_alpha = v.least_pdf < 1.0F ? 0.5F * std::sqrt(1.0F - v.least_pdf) : 0.0F;
   v.view = brdf.view(Vec3(-ray.direction.dot(v.t), -ray.direction.dot(v.b), -ray.direction.dot(v.n)),
                      least_alpha, base_color);
-  v.throughput = share * path.throughput;
-  v.least_pdf = path.least_pdf;
-  v.lane = path.lane;
-  v.samples = path.samples;
-  v.inside = path.inside;
-  v.clear = path.clear;
-  v.compressed = path.compressed;
+  v.throughput = share * color(paths.throughput[path]);
+  v.lane = paths.lane[path];
+  v.samples = samples_of(v.lane);
+  v.inside = paths.inside[path];
+  v.clear = paths.clear[path];
+  v.compressed = paths.compressed[path];
 }
 
 bool PathTracer::all_lights_at(std::uint32_t depth) const {
@@ -318,57 +468,113 @@ float PathTracer::pick_probability(std::size_t light, std::uint32_t depth) const
   return all_lights_at(depth) ? 1.0F : shading_.pick[light];
 }
 
+void PathTracer::draw_surface_pairs(std::uint32_t dimension, PairRows& pairs) const {
+  const SurfaceRows& s = batch_->surfaces;
+  draw_pairs(pair_keys(key_, dimension), s.count, s.number.data(), pairs.u.data(), pairs.v.data());
+}
+
 /// Shadow rays to the area lights: to each from the first surface when they are few, else to one picked by
 /// power.
 void PathTracer::gather_lights(std::uint32_t depth) {
   if (shading_.lights.empty()) return;
+  Batch& b = *batch_;
+  SurfaceRows& s = b.surfaces;
   const Coherence coherence = depth == 0 ? Coherence::coherent : Coherence::incoherent;
+  const std::vector<RectangleLight>& lights = shading_.lights;
   if (all_lights_at(depth)) {
-    for (std::size_t k = 0; k < shading_.lights.size(); ++k) {
-      const auto name = light_dimension + static_cast<std::uint32_t>(k);
-      for (const Vertex& v : vertices_)
-        gather_light(v, shading_.lights[k], 1.0F, v.samples.pair(dimension(depth, name)));
+    std::fill_n(b.light.begin(), s.count, 0U);
+    for (std::size_t k = 0; k < lights.size(); ++k) {
+      const std::uint32_t name = dimension(depth, light_dimension + static_cast<std::uint32_t>(k));
+      draw_surface_pairs(name, b.pairs);
+      sample_light(lights[k].shape(), f3(lights[k].radiance()), 1.0F, 0, b.light, s, b.pairs, b.arriving);
+      shadow_surfaces();
+      for (const Vertex& v : vertices_) gather_light(v, lights[k], 1.0F, v.samples.pair(name));
       trace_shadows(coherence);
     }
     return;
   }
-  for (const Vertex& v : vertices_) {
-    float left = v.samples.pair(dimension(depth, choice_dimension)).v;
+  const std::uint32_t name = dimension(depth, light_dimension);
+  const std::uint32_t choice = dimension(depth, choice_dimension);
+  const auto picked = [&](float left) {
     std::size_t k = 0;
-    while (k + 1 < shading_.lights.size() && left >= shading_.pick[k]) left -= shading_.pick[k++];
-    gather_light(v, shading_.lights[k], shading_.pick[k], v.samples.pair(dimension(depth, light_dimension)));
+    while (k + 1 < lights.size() && left >= shading_.pick[k]) left -= shading_.pick[k++];
+    return k;
+  };
+  draw_surface_pairs(name, b.pairs);
+  if (lights.size() == 1) {
+    std::fill_n(b.light.begin(), s.count, 0U);
+  } else {
+    draw_surface_pairs(choice, b.choices);
+    for (std::size_t i = 0; i < s.count; ++i) b.light[i] = static_cast<std::uint32_t>(picked(b.choices.v[i]));
+  }
+  if (lights.size() <= most_lights_in_rows) {
+    for (std::size_t k = 0; k < lights.size(); ++k) {
+      sample_light(lights[k].shape(), f3(lights[k].radiance()), shading_.pick[k],
+                   static_cast<std::uint32_t>(k), b.light, s, b.pairs, b.arriving);
+    }
+  } else {
+    for (std::size_t i = 0; i < s.count; ++i) {
+      if (s.alive[i] == 0) continue;
+      const RectangleLight& light = lights[b.light[i]];
+      const RectangleLight::Sample to = light.sample(vec3(s.origin[i]), {b.pairs.u[i], b.pairs.v[i]});
+      b.arriving.set(i, f3(to.direction), to.distance * (1.0F - 1e-5F), shading_.pick[b.light[i]] * to.pdf,
+                     f3(light.radiance()));
+    }
+  }
+  shadow_surfaces();
+  for (const Vertex& v : vertices_) {
+    const std::size_t k = picked(v.samples.pair(choice).v);
+    gather_light(v, lights[k], shading_.pick[k], v.samples.pair(name));
   }
   trace_shadows(coherence);
 }
 
 void PathTracer::gather_light(const Vertex& v, const RectangleLight& light, float pick, Pair s) {
   const RectangleLight::Sample to = light.sample(v.origin, s);
-  const Vec3 wi(to.direction.dot(v.t), to.direction.dot(v.b), to.direction.dot(v.n));
-  const float pdf = pick * to.pdf;
+  // The light is no obstacle; 1e-5 short of it so that a mesh around it is none either.
+  gather(v, to.direction, to.distance * (1.0F - 1e-5F), pick * to.pdf, light.radiance());
+}
+
+/// A shadow ray for light from a direction, of a density.
+void PathTracer::gather(const Vertex& v, const Vec3& direction, float distance, float pdf,
+                        const Color& radiance) {
+  const Vec3 wi(direction.dot(v.t), direction.dot(v.b), direction.dot(v.n));
   if (pdf <= 0.0F || wi.z() <= 0.0F) return;
   const Brdf::Value f = v.brdf->evaluate(v.view, wi);
-  const Color arriving = (power_heuristic(pdf, f.pdf) / pdf) * light.radiance() * f.f_cos * v.throughput;
-  // The light is no obstacle; 1e-5 short of it so that a mesh around it is none either.
-  push_shadow({v.origin, to.direction}, to.distance * (1.0F - 1e-5F), arriving, v.lane);
+  const Color arriving = (power_heuristic(pdf, f.pdf) / pdf) * radiance * f.f_cos * v.throughput;
+  push_shadow({v.origin, direction}, distance, arriving, v.lane);
 }
 
 /// Shadow rays to the suns, to one picked by its irradiance where they are several.
 void PathTracer::gather_suns(std::uint32_t depth) {
   if (shading_.suns.empty()) return;
-  for (const Vertex& v : vertices_) {
+  Batch& b = *batch_;
+  const SurfaceRows& s = b.surfaces;
+  const std::uint32_t name = dimension(depth, sun_dimension);
+  const std::uint32_t choice = dimension(depth, sun_choice_dimension);
+  const auto picked = [&](float left) {
     std::size_t k = 0;
-    if (shading_.suns.size() > 1) {
-      float left = v.samples.pair(dimension(depth, sun_choice_dimension)).u;
-      while (k + 1 < shading_.suns.size() && left >= shading_.sun_pick[k]) left -= shading_.sun_pick[k++];
+    while (k + 1 < shading_.suns.size() && left >= shading_.sun_pick[k]) left -= shading_.sun_pick[k++];
+    return k;
+  };
+  constexpr float far = std::numeric_limits<float>::infinity();
+  draw_surface_pairs(name, b.pairs);
+  if (shading_.suns.size() == 1) {
+    sample_sun(shading_.suns.front().disc(), s.count, b.pairs, b.arriving);
+  } else {
+    draw_surface_pairs(choice, b.choices);
+    for (std::size_t i = 0; i < s.count; ++i) {
+      const std::size_t k = picked(b.choices.u[i]);
+      const SunLight& sun = shading_.suns[k];
+      b.arriving.set(i, f3(sun.sample({b.pairs.u[i], b.pairs.v[i]})), far, shading_.sun_pick[k] * sun.pdf(),
+                     f3(sun.radiance()));
     }
+  }
+  shadow_surfaces();
+  for (const Vertex& v : vertices_) {
+    const std::size_t k = shading_.suns.size() > 1 ? picked(v.samples.pair(choice).u) : 0;
     const SunLight& sun = shading_.suns[k];
-    const Vec3 direction = sun.sample(v.samples.pair(dimension(depth, sun_dimension)));
-    const Vec3 wi(direction.dot(v.t), direction.dot(v.b), direction.dot(v.n));
-    if (wi.z() <= 0.0F) continue;
-    const float pdf = shading_.sun_pick[k] * sun.pdf();
-    const Brdf::Value f = v.brdf->evaluate(v.view, wi);
-    const Color arriving = (power_heuristic(pdf, f.pdf) / pdf) * sun.radiance() * f.f_cos * v.throughput;
-    push_shadow({v.origin, direction}, std::numeric_limits<float>::infinity(), arriving, v.lane);
+    gather(v, sun.sample(v.samples.pair(name)), far, shading_.sun_pick[k] * sun.pdf(), sun.radiance());
   }
   trace_shadows(depth == 0 ? Coherence::coherent : Coherence::incoherent);
 }
@@ -376,27 +582,47 @@ void PathTracer::gather_suns(std::uint32_t depth) {
 /// Shadow rays to the sky, spread as the cosine, or as the light of its map.
 void PathTracer::gather_sky(std::uint32_t depth) {
   if (shading_.sky.strength <= 0.0F) return;
-  for (const Vertex& v : vertices_) {
-    const Pair s = v.samples.pair(dimension(depth, sky_dimension));
-    Vec3 wi, direction;
-    float pdf = 0.0F;
-    if (shading_.sky_sampler) {
-      const SkySampler::Sample to = shading_.sky_sampler->sample(s);
-      direction = to.direction;
-      wi = Vec3(direction.dot(v.t), direction.dot(v.b), direction.dot(v.n));
-      pdf = wi.z() > 0.0F ? to.pdf : 0.0F;
-    } else {
-      wi = sample_cosine(s);
-      pdf = wi.z() * inv_pi;
-      direction = wi.x() * v.t + wi.y() * v.b + wi.z() * v.n;
+  Batch& b = *batch_;
+  const SurfaceRows& s = b.surfaces;
+  const std::uint32_t name = dimension(depth, sky_dimension);
+  constexpr float far = std::numeric_limits<float>::infinity();
+  draw_surface_pairs(name, b.pairs);
+  if (!shading_.sky_sampler) {
+    sample_sky(shading_.gradient(), s, b.pairs, b.arriving);
+  } else {
+    for (std::size_t i = 0; i < s.count; ++i) {
+      if (s.alive[i] == 0) continue;
+      const SkySampler::Sample to = shading_.sky_sampler->sample({b.pairs.u[i], b.pairs.v[i]});
+      b.arriving.set(i, f3(to.direction), far, to.pdf, f3(sky_radiance(shading_.sky, to.direction)));
     }
-    if (pdf <= 0.0F) continue;
-    const Brdf::Value f = v.brdf->evaluate(v.view, wi);
-    const Color arriving =
-        (power_heuristic(pdf, f.pdf) / pdf) * sky_radiance(shading_.sky, direction) * f.f_cos * v.throughput;
-    push_shadow({v.origin, direction}, std::numeric_limits<float>::infinity(), arriving, v.lane);
+  }
+  shadow_surfaces();
+  for (const Vertex& v : vertices_) {
+    const Pair pair = v.samples.pair(name);
+    if (shading_.sky_sampler) {
+      const SkySampler::Sample to = shading_.sky_sampler->sample(pair);
+      gather(v, to.direction, far, to.pdf, sky_radiance(shading_.sky, to.direction));
+    } else {
+      const Vec3 wi = sample_cosine(pair);
+      const Vec3 direction = wi.x() * v.t + wi.y() * v.b + wi.z() * v.n;
+      gather(v, direction, far, wi.z() * inv_pi, sky_radiance(shading_.sky, direction));
+    }
   }
   trace_shadows(Coherence::incoherent);
+}
+
+/// Queues the shadow rays of surfaces for the light that may arrive there.
+void PathTracer::shadow_surfaces() {
+  Batch& b = *batch_;
+  ShadowRows& to = *shadows_;
+  for (const SurfaceRange& r : b.ranges) {
+    weigh_light(*r.material, r.range, b.surfaces, geometry_.ground(), b.arriving);
+    for (std::size_t i = r.range.first; i < r.range.last; ++i) {
+      if (b.arriving.kept[i] == 0) continue;
+      to.push(b.surfaces.origin[i], b.arriving.direction[i], b.arriving.distance[i], b.arriving.radiance[i],
+              b.surfaces.lane[i]);
+    }
+  }
 }
 
 /// Queues a shadow ray, unless the ground takes all of it; a fading ground takes its share.
@@ -405,60 +631,82 @@ void PathTracer::push_shadow(const Ray& ray, float distance, const Color& arrivi
   const double ground = geometry_.meet_ground(ray);
   if (ground < distance) through = ground_fade(shading_.ground, geometry_.ground_point(ray, ground));
   if (through <= 0.0F || arriving.maxCoeff() <= 0.0F) return;
-  shadow_rays_.push_back(ray);
-  shadow_distances_.push_back(distance);
-  shadow_light_.push_back(through * arriving);
-  shadow_lanes_.push_back(lane);
+  shadows_->push(f3(ray.origin), f3(ray.direction), distance, f3(Color(through * arriving)), lane);
 }
 
 void PathTracer::trace_shadows(Coherence coherence) {
-  blocked_.resize(shadow_rays_.size());
+  ShadowRows& s = *shadows_;
   if (moving_) {
-    for (std::size_t i = 0; i < shadow_rays_.size(); ++i) shadow_rays_[i].time = times_[shadow_lanes_[i]];
+    for (std::size_t i = 0; i < s.rays.count; ++i) s.rays.time[i] = times_[s.lane[i]];
   }
-  geometry_.caster().occluded(shadow_rays_, shadow_distances_, coherence, blocked_);
+  geometry_.caster().occluded(s.rays, coherence, s.blocked);
   if (shading_.see_through) dim_shadows(coherence);
-  for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
-    if (blocked_[i] == 0) add_light(shadow_lanes_[i], shadow_light_[i]);
+  for (std::size_t i = 0; i < s.rays.count; ++i) {
+    if (s.blocked[i] == 0) add_light(s.lane[i], color(s.light[i]));
   }
-  shadow_rays_.clear();
-  shadow_distances_.clear();
-  shadow_light_.clear();
-  shadow_lanes_.clear();
+  s.rays.count = 0;
 }
 
 /// The next rays, by the BSDF; dim paths end by Russian roulette.
 void PathTracer::scatter(std::uint32_t depth) {
+  Batch& b = *batch_;
+  const PathRows& paths = *paths_;
+  PathRows& next = *next_;
+  const SurfaceRows& s = b.surfaces;
+  draw_surface_pairs(dimension(depth, scatter_dimension), b.pairs);
+  const PairKeys choice = pair_keys(key_, dimension(depth, choice_dimension));
+  // What Russian roulette makes of the throughput; false: the path ends.
+  const auto goes_on = [&](F3& throughput, float compressed, std::uint32_t number) {
+    const float bright = max_of(throughput) / compressed;
+    if (!(bright > 0.0F)) return false;
+    if (depth < roulette_depth || bright >= 1.0F) return true;
+    if (pair_of(choice, number).u >= bright) return false;
+    throughput = (1.0F / bright) * throughput;
+    return true;
+  };
+  for (const SurfaceRange& r : b.ranges) {
+    scatter_surfaces(*r.material, r.range, s, b.pairs, b.scattered);
+    for (std::size_t i = r.range.first; i < r.range.last; ++i) {
+      const float pdf = b.scattered.pdf[i];
+      if (s.alive[i] == 0 || pdf <= 0.0F) continue;
+      const std::uint32_t path = s.path[i];
+      F3 throughput = b.scattered.throughput[i];
+      if (!goes_on(throughput, paths.compressed[path], s.number[i])) continue;
+      const std::size_t k = next.rays.count++;
+      next.rays.origin.set(k, s.origin[i]);
+      next.rays.direction.set(k, b.scattered.direction[i]);
+      next.throughput.set(k, throughput);
+      next.bsdf_pdf[k] = pdf;
+      next.sky_pdf[k] = b.scattered.sky_pdf[i];
+      next.least_pdf[k] = std::min(s.least_pdf[i], pdf);
+      next.lane[k] = s.lane[i];
+      next.inside[k] = paths.inside[path];
+      next.clear[k] = paths.clear[path];
+      next.compressed[k] = paths.compressed[path];
+    }
+  }
   for (const Vertex& v : vertices_) {
     const auto pair = [&](std::uint32_t name) { return v.samples.pair(dimension(depth, name)); };
-    const bool layers = v.brdf->has_layers();
-    const Bsdf::Sample s =
-        v.brdf->sample(v.view, pair(scatter_dimension), layers ? pair(lobe_dimension) : Pair{},
-                       layers ? pair(clear_dimension) : Pair{});
-    if (s.value.pdf <= 0.0F) continue;
-    Color throughput = v.throughput * s.value.f_cos / s.value.pdf;
-    const Vec3& wi = s.direction;
+    const Bsdf::Sample sample =
+        v.brdf->sample(v.view, pair(scatter_dimension), pair(lobe_dimension), pair(clear_dimension));
+    if (sample.value.pdf <= 0.0F) continue;
+    const Vec3& wi = sample.direction;
     const float compressed =
-        layers && !v.view.emerging ? v.compressed / v.brdf->index_squared(v.view.wo, wi) : v.compressed;
-    const float bright = throughput.maxCoeff() / compressed;
-    if (bright <= 0.0F) continue;
-    if (depth >= roulette_depth && bright < 1.0F) {
-      if (pair(choice_dimension).u >= bright) continue;
-      throughput /= bright;
-    }
+        v.view.emerging ? v.compressed : v.compressed / v.brdf->index_squared(v.view.wo, wi);
+    F3 throughput = f3(Color(v.throughput * sample.value.f_cos / sample.value.pdf));
+    if (!goes_on(throughput, compressed, v.samples.number())) continue;
     const bool below = wi.z() < 0.0F;
-    rays_.push_back({below ? v.below : v.origin, wi.x() * v.t + wi.y() * v.b + wi.z() * v.n});
-    Path& path = paths_.emplace_back();
-    path.throughput = throughput;
-    path.bsdf_pdf = below ? unseen : s.value.pdf;
-    path.sky_pdf = wi.z() * inv_pi;
-    path.least_pdf = std::min(v.least_pdf, s.value.pdf);
-    path.lane = v.lane;
-    path.samples = v.samples;
-    path.inside = v.inside;
-    if (v.brdf->transmits()) path.inside = below ? &v.brdf->absorption() : nullptr;
-    path.clear = s.clear ? std::min(v.clear + 1, clear_bounces_) : v.clear;
-    path.compressed = compressed;
+    const std::size_t k = next.rays.count++;
+    next.rays.origin.set(k, f3(below ? v.below : v.origin));
+    next.rays.direction.set(k, f3(Vec3(wi.x() * v.t + wi.y() * v.b + wi.z() * v.n)));
+    next.throughput.set(k, throughput);
+    next.bsdf_pdf[k] = below ? unseen : sample.value.pdf;
+    next.sky_pdf[k] = wi.z() * inv_pi;
+    next.least_pdf[k] = std::min(v.least_pdf, sample.value.pdf);
+    next.lane[k] = v.lane;
+    next.inside[k] = v.brdf->transmits() ? (below ? &v.brdf->absorption() : nullptr) : v.inside;
+    next.clear[k] = sample.clear ? std::min(v.clear + 1, clear_bounces_) : v.clear;
+    next.compressed[k] = compressed;
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -8,9 +9,11 @@
 #include "render/path/filter.h"
 #include "render/path/lens.h"
 #include "render/path/random_walk.h"
+#include "render/path/rows.h"
 #include "render/path/sampler.h"
 #include "render/path/scene_geometry.h"
 #include "render/path/shading.h"
+#include "render/path/surface_rows.h"
 #include "render/render_scene.h"
 #include "render/settings.h"
 
@@ -34,7 +37,8 @@ struct Tile {
 };
 
 /// Traces the paths of one thread, a batch of them in step: all rays of a kind are traced together, in
-/// packets. Keeps its room from batch to batch.
+/// packets, and surfaces whose material is a Brdf alone are lit and scatter in vector code (surface_rows.h).
+/// Those with layers are vertices, one after another. Keeps its room from batch to batch.
 ///
 /// At each surface, light arrives by next-event estimation of the area lights and the sky and by the
 /// scattered ray that finds them (of suns likewise), weighed by the power heuristic [Veach 1997]. From the
@@ -51,6 +55,8 @@ class PathTracer {
 public:
   PathTracer(const SceneGeometry&, const Shading&, const Camera&, const PixelFilter&, int samples,
              const PathSettings&);
+  PathTracer(PathTracer&&) noexcept;
+  ~PathTracer();
 
   /// Mean radiance of the tile's pixels into `color`, 3 floats a pixel of the whole picture. Sums go in the
   /// order of the samples. `statistics` and `means`, of the same tile, take every sample; nullptr: none is
@@ -66,17 +72,7 @@ public:
              TileMeans* means = nullptr);
 
 private:
-  struct Path {
-    Color throughput;
-    float bsdf_pdf;   // of the ray's direction [1/sr]
-    float sky_pdf;    // of the same by next-event estimation
-    float least_pdf;  // bsdf_pdf's least along the path
-    std::uint32_t lane;
-    PathSamples samples;
-    const Absorption* inside = nullptr;  // what the ray is in, where that is told
-    std::uint32_t clear = 0;             // bounces that do not count
-    float compressed = 1.0F;             // of the throughput, by indices of refraction
-  };
+  /// A surface with layers.
   struct Vertex {
     Vec3 origin;
     Vec3 t, b, n;  // shading frame
@@ -94,38 +90,52 @@ private:
 
   /// What a ray meets.
   struct Ahead {
-    SceneGeometry::TriangleHit mesh;  // t = never when not on_mesh
-    double ground;                    // distance of the ground before the mesh, or never
-    float opacity;                    // of the ground there; 0 when never
+    double t;       // distance of the mesh; never when not on_mesh
+    double ground;  // distance of the ground before the mesh, or never
+    float opacity;  // of the ground there; 0 when never
     bool on_mesh;
     bool on_light = false;  // a visible light, as the camera sees it
   };
+  struct SurfaceRange {
+    Range range;
+    const BrdfConstants* material;
+  };
+  struct Batch;
 
-  void begin_batch(std::size_t count, bool first_hits);
-  void begin_path(std::uint32_t lane, int x, int y, const PathSamples&);
-  void finish_batch();
+  template <class Samples>
+  std::size_t trace_some(const Samples& of, std::uint64_t most, const FrameSamples&, TileMeans*);
+  void begin_paths(std::span<const PixelSample>);
   void trace_batch(std::uint32_t depth);
   void pass_through(std::uint32_t depth);
   bool passes(std::size_t path, std::uint32_t depth, std::uint32_t crossing) const;
+  void meet_meshes();
+  void meet_lights(std::uint32_t from);
   void arrive(std::uint32_t depth);
-  Ahead look(const Ray&, const MeshHit&) const;
+  void arrive_at_layers(std::size_t path, const Ahead&, std::uint32_t depth, float share);
+  void see_surfaces(std::size_t on_meshes);
+  TriangleHit hit_of(std::size_t path) const;
+  Ahead look(std::size_t path) const;
   Color seen_by_camera(const Ray&, Ahead&) const;
-  Color light_met(const Ray&, const Path&, std::uint32_t from, const Ahead&) const;
+  Color light_met(std::size_t path, const Ahead&) const;
   void keep_first_hit(std::uint32_t lane, const SurfacePoint&, const Color& albedo, float depth,
                       float opacity);
-  void begin_vertex(const SurfacePoint&, const Ray&, const Path&, const Bsdf&, float share,
-                    const Color* base_color = nullptr);
-  static void absorb(Path&, const Absorption*, double distance);
+  void begin_vertex(const SurfacePoint&, const Ray&, std::size_t path, const Bsdf&, float share,
+                    const Color* base_color);
+  static void absorb(PathRows&, std::size_t path, const Absorption*, double distance);
   void enter_cloudy_inside(const Ray&, const MeshHit&, const Vec3& from, float choice, Pair way,
                            std::uint32_t depth);
   void leave_cloudy_insides();
   void add_light(std::uint32_t lane, const Color&);
   bool all_lights_at(std::uint32_t depth) const;
   float pick_probability(std::size_t light, std::uint32_t depth) const;
+  PathSamples samples_of(std::size_t lane) const { return {key_, SampleNumber{numbers_[lane]}}; }
+  void draw_surface_pairs(std::uint32_t dimension, PairRows&) const;
   void gather_lights(std::uint32_t depth);
   void gather_light(const Vertex&, const RectangleLight&, float pick, Pair);
+  void gather(const Vertex&, const Vec3& direction, float distance, float pdf, const Color& radiance);
   void gather_suns(std::uint32_t depth);
   void gather_sky(std::uint32_t depth);
+  void shadow_surfaces();
   void push_shadow(const Ray&, float distance, const Color& arriving, std::uint32_t lane);
   void trace_shadows(Coherence);
   void dim_shadows(Coherence);
@@ -140,9 +150,11 @@ private:
   std::uint32_t samples_, bounces_, clear_bounces_;
   float clamp_;  // of indirect light; 0: none
 
-  std::vector<Ray> rays_;  // of paths_
-  std::vector<Path> paths_;
-  std::vector<MeshHit> hits_;
+  std::uint64_t key_ = 0;  // of the batch's sample numbers, whose indices `numbers_` has by lane
+  Row<std::uint32_t> numbers_{};
+  std::unique_ptr<PathRows> paths_, next_;
+  std::unique_ptr<ShadowRows> shadows_;
+  std::unique_ptr<Batch> batch_;
   std::vector<Vertex> vertices_;
   RandomWalk walks_;
   std::vector<Vertex> entered_;         // where each walk began
@@ -150,13 +162,8 @@ private:
   std::vector<std::size_t> passing_;    // rays that go on behind a surface, their continuations and hits
   std::vector<Ray> passing_rays_;
   std::vector<MeshHit> passing_hits_;
-  std::vector<Ray> shadow_rays_;
-  std::vector<float> shadow_distances_;
-  std::vector<Color> shadow_light_;  // what arrives when nothing is in the way
-  std::vector<std::uint32_t> shadow_lanes_;
-  std::vector<std::uint8_t> blocked_;
   std::vector<Color> radiance_;       // of each lane
-  std::vector<float> times_;          // of each lane, where rays have them
+  Row<float> times_{};                // of each lane, where rays have them
   std::vector<FirstHit> first_hits_;  // of each lane, where they are wanted
 };
 

@@ -60,7 +60,7 @@ bool RandomWalk::step(Walk& w, Ray& ray, const MeshHit& hit, const SceneGeometry
   while (colour < 2 && u >= pick[colour]) u -= pick[colour++];
   const float distance = -std::log(1.0F - way.v) / extinction[colour];
 
-  const SceneGeometry::TriangleHit at = geometry.meet(ray, hit);
+  const TriangleHit at = geometry.meet(ray, hit);
   const auto to_surface = static_cast<float>(std::max(at.t, 0.0));
   if (distance >= to_surface) {
     const Color passed = (-to_surface * extinction).exp();

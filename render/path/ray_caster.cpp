@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include <embree3/rtcore.h>
@@ -48,7 +49,7 @@ RTCIntersectContext context(Coherence coherence) {
 
 /// Lane k of a packet becomes the ray; lanes past the last ray repeat it and are masked out.
 template <int N>
-void load(typename Packet<N>::Rays& packet, int k, const Ray& ray, float distance) {
+void load(typename Packet<N>::Rays& packet, int k, const Ray& ray) {
   packet.org_x[k] = ray.origin.x();
   packet.org_y[k] = ray.origin.y();
   packet.org_z[k] = ray.origin.z();
@@ -57,48 +58,98 @@ void load(typename Packet<N>::Rays& packet, int k, const Ray& ray, float distanc
   packet.dir_y[k] = ray.direction.y();
   packet.dir_z[k] = ray.direction.z();
   packet.time[k] = ray.time;
-  packet.tfar[k] = distance;
   packet.mask[k] = 0xffffffffU;
   packet.id[k] = 0;
   packet.flags[k] = 0;
 }
 
+/// The same of rows, from `first` on: rows are as long as whole packets, and what is behind the last ray is
+/// masked out.
 template <int N>
-void intersect_packets(RTCScene scene, std::span<const Ray> rays, Coherence coherence,
+void load(typename Packet<N>::Rays& packet, const RayRows& rays, std::size_t first) {
+  const auto copy = [first](float* to, const Row<float>& row) {
+    std::memcpy(to, row.data() + first, N * sizeof(float));
+  };
+  copy(packet.org_x, rays.origin.x);
+  copy(packet.org_y, rays.origin.y);
+  copy(packet.org_z, rays.origin.z);
+  copy(packet.dir_x, rays.direction.x);
+  copy(packet.dir_y, rays.direction.y);
+  copy(packet.dir_z, rays.direction.z);
+  copy(packet.time, rays.time);
+  for (int k = 0; k < N; ++k) {
+    packet.tnear[k] = 0.0F;
+    packet.mask[k] = 0xffffffffU;
+    packet.id[k] = 0;
+    packet.flags[k] = 0;
+  }
+}
+
+/// Closest hits of `count` rays; `fill` puts those from a number on into a packet.
+template <int N, class Fill>
+void intersect_packets(RTCScene scene, std::size_t count, const Fill& fill, Coherence coherence,
                        std::span<MeshHit> hits) {
   RTCIntersectContext c = context(coherence);
   typename Packet<N>::RayHits packet;
   alignas(64) int valid[N];
-  for (std::size_t first = 0; first < rays.size(); first += N) {
-    const std::size_t count = std::min<std::size_t>(N, rays.size() - first);
+  for (std::size_t first = 0; first < count; first += N) {
+    const std::size_t in_packet = std::min<std::size_t>(N, count - first);
+    fill(packet.ray, first, in_packet);
     for (int k = 0; k < N; ++k) {
-      const auto lane = static_cast<std::size_t>(k);
-      load<N>(packet.ray, k, rays[first + std::min(lane, count - 1)], std::numeric_limits<float>::infinity());
+      packet.ray.tfar[k] = std::numeric_limits<float>::infinity();
       packet.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-      valid[k] = lane < count ? -1 : 0;
+      valid[k] = static_cast<std::size_t>(k) < in_packet ? -1 : 0;
     }
     Packet<N>::intersect(valid, scene, &c, &packet);
-    for (std::size_t k = 0; k < count; ++k) hits[first + k] = {packet.hit.geomID[k], packet.hit.primID[k]};
+    for (std::size_t k = 0; k < in_packet; ++k)
+      hits[first + k] = {packet.hit.geomID[k], packet.hit.primID[k]};
   }
 }
 
 template <int N>
-void occluded_packets(RTCScene scene, std::span<const Ray> rays, std::span<const float> distances,
-                      Coherence coherence, std::span<std::uint8_t> blocked) {
+void intersect_rows(RTCScene scene, const RayRows& rays, Coherence coherence, std::span<MeshHit> hits) {
+  const auto fill = [&](typename Packet<N>::Rays& packet, std::size_t first, std::size_t) {
+    load<N>(packet, rays, first);
+  };
+  intersect_packets<N>(scene, rays.count, fill, coherence, hits);
+}
+
+template <int N>
+void intersect_rays(RTCScene scene, std::span<const Ray> rays, Coherence coherence, std::span<MeshHit> hits) {
+  const auto fill = [&](typename Packet<N>::Rays& packet, std::size_t first, std::size_t count) {
+    for (int k = 0; k < N; ++k)
+      load<N>(packet, k, rays[first + std::min(static_cast<std::size_t>(k), count - 1)]);
+  };
+  intersect_packets<N>(scene, rays.size(), fill, coherence, hits);
+}
+
+template <int N>
+void occluded_rows(RTCScene scene, const RayRows& rays, Coherence coherence,
+                   std::span<std::uint8_t> blocked) {
   RTCIntersectContext c = context(coherence);
   typename Packet<N>::Rays packet;
   alignas(64) int valid[N];
-  for (std::size_t first = 0; first < rays.size(); first += N) {
-    const std::size_t count = std::min<std::size_t>(N, rays.size() - first);
-    for (int k = 0; k < N; ++k) {
-      const auto lane = static_cast<std::size_t>(k);
-      const std::size_t i = first + std::min(lane, count - 1);
-      load<N>(packet, k, rays[i], distances[i]);
-      valid[k] = lane < count ? -1 : 0;
-    }
+  for (std::size_t first = 0; first < rays.count; first += N) {
+    const std::size_t count = std::min<std::size_t>(N, rays.count - first);
+    load<N>(packet, rays, first);
+    std::memcpy(packet.tfar, rays.far.data() + first, N * sizeof(float));
+    for (int k = 0; k < N; ++k) valid[k] = static_cast<std::size_t>(k) < count ? -1 : 0;
     Packet<N>::occluded(valid, scene, &c, &packet);
     for (std::size_t k = 0; k < count; ++k) blocked[first + k] = packet.tfar[k] < 0.0F ? 1 : 0;
+  }
+}
+
+/// Calls `of` with the width of the packets as a constant.
+template <class Of>
+void with_width(int width, const Of& of) {
+  switch (width) {
+    case 16:
+      return of(std::integral_constant<int, 16>{});
+    case 8:
+      return of(std::integral_constant<int, 8>{});
+    default:
+      return of(std::integral_constant<int, 4>{});
   }
 }
 
@@ -207,26 +258,21 @@ void RayCaster::commit() {
 }
 
 void RayCaster::intersect(std::span<const Ray> rays, Coherence coherence, std::span<MeshHit> hits) const {
-  switch (impl_->packet_width) {
-    case 16:
-      return intersect_packets<16>(impl_->scene, rays, coherence, hits);
-    case 8:
-      return intersect_packets<8>(impl_->scene, rays, coherence, hits);
-    default:
-      return intersect_packets<4>(impl_->scene, rays, coherence, hits);
-  }
+  with_width(impl_->packet_width, [&](auto width) {
+    intersect_rays<decltype(width)::value>(impl_->scene, rays, coherence, hits);
+  });
 }
 
-void RayCaster::occluded(std::span<const Ray> rays, std::span<const float> distances, Coherence coherence,
-                         std::span<std::uint8_t> blocked) const {
-  switch (impl_->packet_width) {
-    case 16:
-      return occluded_packets<16>(impl_->scene, rays, distances, coherence, blocked);
-    case 8:
-      return occluded_packets<8>(impl_->scene, rays, distances, coherence, blocked);
-    default:
-      return occluded_packets<4>(impl_->scene, rays, distances, coherence, blocked);
-  }
+void RayCaster::intersect(const RayRows& rays, Coherence coherence, std::span<MeshHit> hits) const {
+  with_width(impl_->packet_width, [&](auto width) {
+    intersect_rows<decltype(width)::value>(impl_->scene, rays, coherence, hits);
+  });
+}
+
+void RayCaster::occluded(const RayRows& rays, Coherence coherence, std::span<std::uint8_t> blocked) const {
+  with_width(impl_->packet_width, [&](auto width) {
+    occluded_rows<decltype(width)::value>(impl_->scene, rays, coherence, blocked);
+  });
 }
 
 std::string RayCaster::description() const {

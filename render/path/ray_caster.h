@@ -6,6 +6,7 @@
 #include <string>
 
 #include "render/camera.h"
+#include "render/path/rows.h"
 #include "render/render_scene.h"
 
 namespace lagomorph::render::path {
@@ -45,9 +46,9 @@ public:
 
   /// Closest hits, one a ray; both sides of a triangle count.
   void intersect(std::span<const Ray> rays, Coherence, std::span<MeshHit> hits) const;
-  /// Whether anything is in the way before `distances`, one a ray [m].
-  void occluded(std::span<const Ray> rays, std::span<const float> distances, Coherence,
-                std::span<std::uint8_t> blocked) const;
+  void intersect(const RayRows& rays, Coherence, std::span<MeshHit> hits) const;
+  /// Whether anything is in the way before the rays' `far`, one a ray.
+  void occluded(const RayRows& rays, Coherence, std::span<std::uint8_t> blocked) const;
 
   /// Embree's version and instruction set.
   std::string description() const;

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "render/simd.h"
+
 /// Sample numbers of the path tracer: Owen-scrambled Sobol pairs [Burley 2020, "Practical Hash-based Owen
 /// Scrambling"], one pair of dimensions padded to another by shuffling the index. A number is a function of
 /// (seed, frame, pixel, samples a pixel, sample, dimension) and of nothing else.
@@ -51,22 +53,45 @@ struct Pair {
   float u, v;  // in [0, 1)
 };
 
+/// What scrambles a dimension.
+struct PairKeys {
+  std::uint32_t shuffle, u, v;
+};
+constexpr PairKeys pair_keys(std::uint64_t key, std::uint32_t dimension) {
+  const std::uint64_t a = mix(key + 0x9e3779b97f4a7c15ULL * (dimension + 1ULL));
+  const std::uint64_t b = mix(a + 0x9e3779b97f4a7c15ULL);
+  return {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a >> 32), static_cast<std::uint32_t>(b)};
+}
+/// In [0, 1): the first 24 bits.
+constexpr float unit_of(std::uint32_t bits) {
+  return static_cast<float>(static_cast<std::int32_t>(bits >> 8)) * 0x1p-24F;
+}
+/// The pair of a dimension, of a path by its index with the bits reversed.
+LAGOMORPH_INLINE constexpr Pair pair_of(const PairKeys& keys, std::uint32_t reversed_index) {
+  const std::uint32_t index = reverse_bits(laine_karras(reversed_index, keys.shuffle));
+  const std::uint32_t u = reverse_bits(laine_karras(index, keys.u));
+  const std::uint32_t v = reverse_bits(laine_karras(sobol_second_reversed(index), keys.v));
+  return {unit_of(u), unit_of(v)};
+}
+
+/// A path's index with its bits reversed.
+struct SampleNumber {
+  std::uint32_t reversed_index;
+};
+
 /// The numbers of one path.
 class PathSamples {
 public:
   PathSamples() = default;
   PathSamples(std::uint64_t key, std::uint32_t index) : key_(key), reversed_index_(reverse_bits(index)) {}
+  PathSamples(std::uint64_t key, SampleNumber number) : key_(key), reversed_index_(number.reversed_index) {}
 
   /// The pair of a dimension; dimensions are names only, in any order and with gaps.
-  Pair pair(std::uint32_t dimension) const {
-    const std::uint64_t a = mix(key_ + 0x9e3779b97f4a7c15ULL * (dimension + 1ULL));
-    const std::uint64_t b = mix(a + 0x9e3779b97f4a7c15ULL);
-    const std::uint32_t index = reverse_bits(laine_karras(reversed_index_, static_cast<std::uint32_t>(a)));
-    const std::uint32_t u = reverse_bits(laine_karras(index, static_cast<std::uint32_t>(a >> 32)));
-    const std::uint32_t v =
-        reverse_bits(laine_karras(sobol_second_reversed(index), static_cast<std::uint32_t>(b)));
-    return {static_cast<float>(u >> 8) * 0x1p-24F, static_cast<float>(v >> 8) * 0x1p-24F};
-  }
+  Pair pair(std::uint32_t dimension) const { return pair_of(pair_keys(key_, dimension), reversed_index_); }
+
+  /// Those of neighbours are alike.
+  std::uint64_t key() const { return key_; }
+  std::uint32_t number() const { return reversed_index_; }
 
 private:
   std::uint64_t key_ = 0;

@@ -1,25 +1,9 @@
 #include "render/path/scene_geometry.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 
 namespace lagomorph::render::path {
 namespace {
-
-/// The point on the smooth surface that the vertex normals stand for: p is projected onto the three tangent
-/// planes where it lies below them, the projections are interpolated and p is moved half of the way there
-/// [Hanika 2021, "Hacking the Shadow Terminator"; he goes all of it]. Half is the sphere itself where the
-/// vertices lie on one. Rays that start there do not meet the facets of a convex surface whose normals they
-/// still pass.
-Vec3 smooth_point(const Vec3& p, const Vec3 (&x)[3], const Vec3 (&n)[3], const float (&weight)[3]) {
-  Vec3 raised = p;
-  for (int k = 0; k < 3; ++k) {
-    const float below = std::min(0.0F, (p - x[k]).dot(n[k]));
-    raised -= 0.5F * weight[k] * below * n[k];
-  }
-  return raised;
-}
 
 Vec3 interpolated(const std::vector<Vec3>& x, const Triangle& triangle, double u, double v) {
   const Eigen::Vector3d a = x[triangle[0]].cast<double>();
@@ -28,16 +12,16 @@ Vec3 interpolated(const std::vector<Vec3>& x, const Triangle& triangle, double u
   return (a + u * (b - a) + v * (c - a)).cast<float>();
 }
 
-/// n bent as little as needed for the unit direction wo to be above it.
-Vec3 facing(const Vec3& n, const Vec3& wo) {
-  constexpr float least = 1e-3F;
-  const float cosine = n.dot(wo);
-  return cosine >= least ? n : Vec3((n + (least - cosine) * wo).normalized());
-}
-
 }  // namespace
 
-SceneGeometry::SceneGeometry(const RenderScene& scene) : ground_(scene.ground), moving_(scene.moving) {
+SceneGeometry::SceneGeometry(const RenderScene& scene)
+    : disc_{scene.ground.height,
+            scene.ground.center.x(),
+            scene.ground.center.z(),
+            scene.ground.radius,
+            scene.ground.fade_start,
+            scene.ground.enabled ? static_cast<double>(scene.ground.radius) * scene.ground.radius : -1.0},
+      moving_(scene.moving) {
   meshes_.reserve(scene.meshes.size());
   for (const Mesh& m : scene.meshes) {
     meshes_.push_back({m.triangles,
@@ -94,11 +78,16 @@ void SceneGeometry::commit() {
 }
 
 /// Between opening and close as a straight line.
-Eigen::Vector3d SceneGeometry::position(const Moving& m, std::uint32_t vertex, float time) const {
-  const Eigen::Vector3d close = m.positions[vertex].cast<double>();
+Vec3 SceneGeometry::position(const Moving& m, std::uint32_t vertex, float time) const {
+  const Vec3& close = m.positions[vertex];
   if (m.opening.empty()) return close;
   const Eigen::Vector3d open = m.opening[vertex].cast<double>();
-  return open + static_cast<double>(time) * (close - open);
+  return (open + static_cast<double>(time) * (close.cast<double>() - open)).cast<float>();
+}
+
+Corners SceneGeometry::corners(const Moving& m, const Triangle& triangle, float time) const {
+  return {f3(position(m, triangle[0], time)), f3(position(m, triangle[1], time)),
+          f3(position(m, triangle[2], time))};
 }
 
 Vec3 SceneGeometry::normal(const Moving& m, std::uint32_t vertex, float time) const {
@@ -106,76 +95,44 @@ Vec3 SceneGeometry::normal(const Moving& m, std::uint32_t vertex, float time) co
   return ((1.0F - time) * m.opening_normals[vertex] + time * m.normals[vertex]).normalized();
 }
 
-SceneGeometry::TriangleHit SceneGeometry::meet(const Ray& ray, const MeshHit& hit) const {
-  // [Möller and Trumbore 1997]
+Corners SceneGeometry::normals(const Moving& m, const Triangle& triangle, float time) const {
+  if (!m.smooth) return {};
+  return {f3(normal(m, triangle[0], time)), f3(normal(m, triangle[1], time)),
+          f3(normal(m, triangle[2], time))};
+}
+
+void SceneGeometry::put_corners(const MeshHit& hit, float time, Meetings& meetings, std::size_t at) const {
   const Moving& m = meshes_[hit.mesh];
   const Triangle& triangle = m.triangles[hit.triangle];
-  const Eigen::Vector3d d = ray.direction.cast<double>();
-  const Eigen::Vector3d a = position(m, triangle[0], ray.time);
-  const Eigen::Vector3d e1 = position(m, triangle[1], ray.time) - a;
-  const Eigen::Vector3d e2 = position(m, triangle[2], ray.time) - a;
-  const Eigen::Vector3d s = ray.origin.cast<double>() - a;
-  const Eigen::Vector3d p = d.cross(e2);
-  const double det = e1.dot(p);
-  if (det == 0.0)
-    return {((e1 + e2) / 3.0 - s).dot(d), 1.0 / 3.0, 1.0 / 3.0};  // edge-on to rounding: its middle
-  const Eigen::Vector3d q = s.cross(e1);
-  const double inv = 1.0 / det;
-  return {e2.dot(q) * inv, s.dot(p) * inv, d.dot(q) * inv};
+  const Corners x = corners(m, triangle, time);
+  meetings.a.set(at, x.a);
+  meetings.b.set(at, x.b);
+  meetings.c.set(at, x.c);
+  if (!m.smooth) return;
+  const Corners n = normals(m, triangle, time);
+  meetings.normal_a.set(at, n.a);
+  meetings.normal_b.set(at, n.b);
+  meetings.normal_c.set(at, n.c);
+}
+
+TriangleHit SceneGeometry::meet(const Ray& ray, const MeshHit& hit) const {
+  const Moving& m = meshes_[hit.mesh];
+  return meet_triangle(f3(ray.origin), f3(ray.direction), corners(m, m.triangles[hit.triangle], ray.time));
 }
 
 SurfacePoint SceneGeometry::arrive(const Ray& ray, const MeshHit& hit, const TriangleHit& at) const {
   const Moving& m = meshes_[hit.mesh];
   const Triangle& triangle = m.triangles[hit.triangle];
-  const Vec3 x[3] = {position(m, triangle[0], ray.time).cast<float>(),
-                     position(m, triangle[1], ray.time).cast<float>(),
-                     position(m, triangle[2], ray.time).cast<float>()};
-  const Vec3 wo = -ray.direction;
-  const Eigen::Vector3d e1 = (x[1] - x[0]).cast<double>();
-  const Eigen::Vector3d e2 = (x[2] - x[0]).cast<double>();
-  const Vec3 p = (x[0].cast<double>() + at.u * e1 + at.v * e2).cast<float>();
-  Vec3 flat = e1.cross(e2).normalized().cast<float>();
-  const float side = flat.dot(wo) < 0.0F ? -1.0F : 1.0F;
-  flat *= side;
-
-  Vec3 shading = flat;
-  Vec3 start = p;
-  Vec3 start_beyond = p;
-  if (m.smooth) {
-    const Vec3 n[3] = {side * normal(m, triangle[0], ray.time), side * normal(m, triangle[1], ray.time),
-                       side * normal(m, triangle[2], ray.time)};
-    const float weight[3] = {static_cast<float>(1.0 - at.u - at.v), static_cast<float>(at.u),
-                             static_cast<float>(at.v)};
-    const Vec3 sum = weight[0] * n[0] + weight[1] * n[1] + weight[2] * n[2];
-    const float length = sum.norm();
-    if (length > 0.0F && sum.dot(flat) > 0.0F) {
-      shading = sum / length;
-      start = smooth_point(p, x, n, weight);
-      if (m.has_inside) {
-        const Vec3 back[3] = {-n[0], -n[1], -n[2]};
-        start_beyond = smooth_point(p, x, back, weight);
-      }
-    }
-  }
-  Vec3 origin = offset_along(start, flat);
-  // A body that stands on the ground is not lit through it.
-  Vec3 beyond = offset_along(start_beyond, -flat);
-  if (ground_.enabled && p.y() >= ground_.height) {
-    origin.y() = std::max(origin.y(), ground_.height);
-    beyond.y() = std::max(beyond.y(), ground_.height);
-  }
-  return {origin, facing(shading, wo), beyond, side < 0.0F, shading};
+  const Arrival to = arrive_on_triangle(-f3(ray.direction), at.u, at.v, corners(m, triangle, ray.time),
+                                        normals(m, triangle, ray.time), m.smooth, disc_);
+  return {vec3(to.origin), vec3(to.normal), vec3(to.beyond), to.inside, vec3(to.unbent)};
 }
 
 Vec3 SceneGeometry::behind(const Ray& ray, const MeshHit& hit, const TriangleHit& at) const {
   const Moving& m = meshes_[hit.mesh];
-  const Triangle& triangle = m.triangles[hit.triangle];
-  const Eigen::Vector3d a = position(m, triangle[0], ray.time);
-  const Eigen::Vector3d e1 = position(m, triangle[1], ray.time) - a;
-  const Eigen::Vector3d e2 = position(m, triangle[2], ray.time) - a;
-  const Vec3 flat = e1.cross(e2).normalized().cast<float>();
-  const Vec3 p = (a + at.u * e1 + at.v * e2).cast<float>();
-  return offset_along(p, flat.dot(ray.direction) < 0.0F ? Vec3(-flat) : flat);
+  const Corners x = corners(m, m.triangles[hit.triangle], ray.time);
+  const Arrival to = arrive_on_triangle(-f3(ray.direction), at.u, at.v, x, {}, false, disc_);
+  return vec3(to.beyond);
 }
 
 Vec3 SceneGeometry::position_at(const MeshHit& hit, const TriangleHit& at) const {
@@ -199,37 +156,17 @@ std::optional<Color> SceneGeometry::color_at(const MeshHit& hit, const TriangleH
 }
 
 double SceneGeometry::meet_ground(const Ray& ray) const {
-  if (!ground_.enabled) return never;
-  const double above = static_cast<double>(ray.origin.y()) - ground_.height;
-  const double climb = ray.direction.y();
-  // A ray that begins on the plane begins above it.
-  if (above >= 0.0 ? climb >= 0.0 : climb <= 0.0) return never;
-  const double t = -above / climb;
-  const double x = ray.origin.x() + t * ray.direction.x() - ground_.center.x();
-  const double z = ray.origin.z() + t * ray.direction.z() - ground_.center.z();
-  return x * x + z * z <= static_cast<double>(ground_.radius) * ground_.radius ? t : never;
+  return meet_disc(disc_, f3(ray.origin), f3(ray.direction));
 }
 
 Vec3 SceneGeometry::ground_point(const Ray& ray, double t) const {
-  return {static_cast<float>(ray.origin.x() + t * ray.direction.x()), ground_.height,
-          static_cast<float>(ray.origin.z() + t * ray.direction.z())};
+  return vec3(point_on_disc(disc_, f3(ray.origin), f3(ray.direction), t));
 }
 
 SurfacePoint SceneGeometry::arrive_at_ground(const Ray& ray, double t) const {
-  const Vec3 normal(0.0F, ray.direction.y() < 0.0F ? 1.0F : -1.0F, 0.0F);
-  return {offset_along(ground_point(ray, t), normal), facing(normal, -ray.direction), Vec3::Zero(), false,
-          normal};
-}
-
-Vec3 offset_along(const Vec3& p, const Vec3& n) {
-  Vec3 moved;
-  for (int k = 0; k < 3; ++k) {
-    const auto steps = static_cast<std::int32_t>(256.0F * n[k]);
-    const auto bits = std::bit_cast<std::int32_t>(p[k]);
-    const float by_bits = std::bit_cast<float>(bits + (p[k] < 0.0F ? -steps : steps));
-    moved[k] = std::abs(p[k]) < 1.0F / 32.0F ? p[k] + n[k] / 65536.0F : by_bits;
-  }
-  return moved;
+  const F3 direction = f3(ray.direction);
+  const Arrival to = arrive_on_disc(point_on_disc(disc_, f3(ray.origin), direction, t), direction);
+  return {vec3(to.origin), vec3(to.normal), vec3(to.beyond), to.inside, vec3(to.unbent)};
 }
 
 }  // namespace lagomorph::render::path

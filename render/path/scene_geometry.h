@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "render/normals.h"
+#include "render/path/geometry_formulas.h"
 #include "render/path/ray_caster.h"
+#include "render/path/surface_rows.h"
 #include "render/render_scene.h"
 
 namespace lagomorph::render::path {
@@ -39,13 +41,11 @@ public:
   void commit();
   const RayCaster& caster() const { return caster_; }
 
-  /// Where on its triangle a ray meets it: distance and barycentric coordinates, computed again from the
-  /// vertices in double precision, so that they do not depend on the hierarchy's instruction set.
-  struct TriangleHit {
-    double t;     // [m]
-    double u, v;  // weights of the second and third vertex
-  };
   TriangleHit meet(const Ray&, const MeshHit&) const;
+  /// The vertices of the triangle of a hit at a time and, of a smooth mesh, their normals, for meeting `at`.
+  void put_corners(const MeshHit&, float time, Meetings&, std::size_t at) const;
+  bool is_smooth(std::size_t mesh) const { return meshes_[mesh].smooth; }
+  const GroundDisc& ground() const { return disc_; }
   /// The surface at a hit.
   SurfacePoint arrive(const Ray&, const MeshHit&, const TriangleHit&) const;
   /// Where a ray goes on straight behind a hit, so that it does not meet it again.
@@ -77,16 +77,14 @@ private:
     std::vector<Vec3> opening_normals;  // likewise
     std::vector<Vec3> previous;         // positions at the frame before; empty when it stands still
   };
-  Eigen::Vector3d position(const Moving&, std::uint32_t vertex, float time) const;
+  Vec3 position(const Moving&, std::uint32_t vertex, float time) const;
+  Corners corners(const Moving&, const Triangle&, float time) const;
   Vec3 normal(const Moving&, std::uint32_t vertex, float time) const;
+  Corners normals(const Moving&, const Triangle&, float time) const;
   std::vector<Moving> meshes_;
-  Ground ground_;
+  GroundDisc disc_;
   bool moving_;
   RayCaster caster_;
 };
-
-/// p moved off its surface along the unit normal n by some 256 units in the last place [Wächter and Binder
-/// 2019].
-Vec3 offset_along(const Vec3& p, const Vec3& n);
 
 }  // namespace lagomorph::render::path

@@ -23,7 +23,7 @@ Seen seen_by(const SeenScene& scene, const Ray& ray, const MeshHit& hit) {
   Seen seen;
   const double to_ground = scene.geometry.meet_ground(ray);
   if (hit.mesh != MeshHit::none) {
-    const SceneGeometry::TriangleHit at = scene.geometry.meet(ray, hit);
+    const TriangleHit at = scene.geometry.meet(ray, hit);
     if (at.t <= to_ground) {
       seen.t = at.t;
       seen.mesh = static_cast<float>(scene.meshes[hit.mesh].body_id);

@@ -5,6 +5,7 @@
 
 #include "render/path/bsdf.h"
 #include "render/path/light.h"
+#include "render/path/light_formulas.h"
 #include "render/path/sky_sampler.h"
 #include "render/path/sun.h"
 #include "render/render_scene.h"
@@ -28,6 +29,10 @@ struct Shading {
   std::optional<SkySampler> sky_sampler;  // of a sky with a map
   std::optional<Color> background;
 
+  /// The sky's light, of one without a map.
+  SkyGradient gradient() const {
+    return {f3(Color(sky.strength * sky.horizon)), f3(Color(sky.strength * sky.zenith))};
+  }
   /// What the camera sees along a direction that meets nothing.
   Color open_view(const Vec3& direction) const;
 

@@ -6,10 +6,6 @@
 
 #include "render/simd.h"
 
-// Loops over lanes become vector instructions where they are inlined into functions of several instruction
-// sets.
-#define LAGOMORPH_INLINE inline __attribute__((always_inline))
-
 #if defined(__GNUC__) && !defined(__clang__)
 #define LAGOMORPH_SCALAR __attribute__((noinline, optimize("no-tree-vectorize", "no-tree-slp-vectorize")))
 #else

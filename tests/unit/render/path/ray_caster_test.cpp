@@ -1,6 +1,7 @@
 #include "render/path/ray_caster.h"
 
 #include <limits>
+#include <memory>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -84,17 +85,21 @@ TEST(RayCaster, SomethingIsInTheWayBeforeTheDistanceOnly) {
   RenderScene scene;
   scene.meshes = two_spheres();
   const SceneGeometry geometry(scene);
-  const std::vector<Ray> rays = random_rays(1001, 6);
+  const auto rows = std::make_unique<RayRows>();
+  rows->time.fill(1.0F);
   for (const double part : {0.999, 1.001}) {
-    std::vector<float> distances;
+    rows->count = 0;
     std::vector<std::uint8_t> expected;
-    for (const Ray& ray : rays) {
+    for (const Ray& ray : random_rays(batch_size - 11, 6)) {  // the last packet is not full
       const double t = nearest(scene.meshes, ray);
-      distances.push_back(std::isfinite(t) ? static_cast<float>(part * t) : 100.0F);
+      const std::size_t i = rows->count++;
+      rows->origin.set(i, f3(ray.origin));
+      rows->direction.set(i, f3(ray.direction));
+      rows->far[i] = std::isfinite(t) ? static_cast<float>(part * t) : 100.0F;
       expected.push_back(std::isfinite(t) && part > 1.0 ? 1 : 0);
     }
-    std::vector<std::uint8_t> blocked(rays.size(), 7);
-    geometry.caster().occluded(rays, distances, Coherence::incoherent, blocked);
+    std::vector<std::uint8_t> blocked(rows->count, 7);
+    geometry.caster().occluded(*rows, Coherence::incoherent, blocked);
     EXPECT_EQ(blocked, expected);
   }
 }

@@ -76,7 +76,7 @@ TEST(SceneGeometry, DistanceIsThatOfDoublePrecision) {
     MeshHit hit;
     geometry.caster().intersect({&ray, 1}, Coherence::incoherent, {&hit, 1});
     ASSERT_EQ(hit.mesh, 0U);
-    const SceneGeometry::TriangleHit at = geometry.meet(ray, hit);
+    const TriangleHit at = geometry.meet(ray, hit);
     const double expected = n.dot(quad.positions[0].cast<double>() - ray.origin.cast<double>()) /
                             n.dot(ray.direction.cast<double>());
     EXPECT_NEAR(at.t, expected, 1e-6 * expected);  // the two triangles' planes differ by float's rounding
@@ -96,7 +96,7 @@ TEST(SceneGeometry, ACoarseSphereContinuesOnItsSmoothSurface) {
     const Ray ray{3.0F * out, -out};
     MeshHit hit;
     geometry.caster().intersect({&ray, 1}, Coherence::incoherent, {&hit, 1});
-    const SceneGeometry::TriangleHit at = geometry.meet(ray, hit);
+    const TriangleHit at = geometry.meet(ray, hit);
     const SurfacePoint p = geometry.arrive(ray, hit, at);
     EXPECT_GT(p.normal.dot(out), 0.999F);
     facet += std::abs(3.0 - at.t - radius) / 1000.0;
@@ -116,7 +116,7 @@ TEST(SceneGeometry, AHollowContinuesOnItsFacets) {
   const Ray ray{Vec3(0.1F, 0.05F, 0.0F), Vec3(0.3F, 0.9F, 0.2F).normalized()};
   MeshHit hit;
   geometry.caster().intersect({&ray, 1}, Coherence::incoherent, {&hit, 1});
-  const SceneGeometry::TriangleHit at = geometry.meet(ray, hit);
+  const TriangleHit at = geometry.meet(ray, hit);
   const Vec3 point = ray.origin + static_cast<float>(at.t) * ray.direction;
   EXPECT_LT((geometry.arrive(ray, hit, at).origin - point).norm(), 1e-4F);
 }

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "render/path/path_tracer.h"
+#include "render/path/surface_rows.h"
+
+namespace lagomorph::render::path {
+
+/// The rows of a batch, too large for a stack.
+struct PathTracer::Batch {
+  Row<MeshHit> hits;  // of the paths' rays
+  Meetings meetings;
+  Row<std::uint32_t> meeting;  // of each ray that meets a mesh
+  std::vector<Range> meshes;   // the meetings of each mesh
+  GroundRows ground;
+  Row3<> met;  // light of area lights that scattered rays meet
+  Row<float> to_light;
+  Row3<> sky;
+  SurfaceRows surfaces;
+  std::vector<SurfaceRange> ranges;  // of surfaces of a material
+  SurfaceRow<std::uint32_t> light;   // picked for each surface
+  PairRows pairs, choices;
+  ArrivingRows arriving;
+  ScatterRows scattered;
+};
+
+}  // namespace lagomorph::render::path
