@@ -53,6 +53,19 @@ public:
   /// The same through a point of the lens, given in its radii along right and up: all of them meet in the
   /// plane of focus.
   Ray ray(float px, float py, const Vec2& on_lens) const;
+  /// How ray() makes them: directions to forward + x right + y up, or origins there, of places x = 2 px /
+  /// width
+  /// - 1 and y = 1 - 2 py / height.
+  struct ViewPlane {
+    Vec3 position, right, up, forward;  // right and up to the view's border
+    float width, height;                // of the picture [pixels]
+    bool orthographic;
+  };
+  ViewPlane view_plane() const {
+    return {position_,    half_width_ * right_,       half_height_ * up_,
+            forward_,     static_cast<float>(width_), static_cast<float>(height_),
+            orthographic_};
+  }
   /// Radius of the thin lens: sensor_height / (4 f_stop tan(fov/2)) [m]; 0 of a pinhole.
   float lens_radius() const { return lens_radius_; }
   float focus_distance() const { return focus_distance_; }

@@ -13,12 +13,6 @@ constexpr std::uint32_t first_crossing = 1U << 24U;  // of the sample pairs, beh
 
 }  // namespace
 
-void PathTracer::add_light(std::uint32_t lane, const Color& light) {
-  const float most = light.maxCoeff();
-  const bool cut = clamp_ > 0.0F && indirect_[lane] != 0 && most > clamp_;
-  radiance_[lane] += cut ? Color(clamp_ / most * light) : light;
-}
-
 /// Over a distance in a clear inside; nullptr: air.
 void PathTracer::absorb(PathRows& paths, std::size_t path, const Absorption* inside, double distance) {
   if (inside == nullptr || inside->is_clear()) return;

@@ -54,7 +54,7 @@ PathTracer::PathTracer(const SceneGeometry& geometry, const Shading& shading, co
       filter_(filter),
       aperture_(camera),
       moving_(geometry.moving()),
-      samples_(static_cast<std::uint32_t>(samples)),
+      samples_(samples),
       bounces_(static_cast<std::uint32_t>(settings.bounces)),
       clear_bounces_(static_cast<std::uint32_t>(settings.transmission_bounces)),
       clamp_(settings.clamp),
@@ -63,6 +63,7 @@ PathTracer::PathTracer(const SceneGeometry& geometry, const Shading& shading, co
       shadows_(std::make_unique<ShadowRows>()),
       batch_(std::make_unique<Batch>()) {
   for (RayRows* rays : {&paths_->rays, &next_->rays, &shadows_->rays}) rays->time.fill(1.0F);
+  for (const RectangleLight& light : shading.lights) any_visible_ = any_visible_ || light.visible();
   batch_->meshes.resize(shading.brdfs.size() - 1);
 }
 
@@ -71,64 +72,72 @@ PathTracer::~PathTracer() = default;
 
 void PathTracer::trace(const Tile& tile, const FrameSamples& numbers, float* color,
                        TileStatistics* statistics, TileMeans* means) {
-  const auto width = static_cast<std::uint32_t>(tile.x1 - tile.x0);
-  const std::uint64_t total =
-      static_cast<std::uint64_t>(width) * static_cast<std::uint32_t>(tile.y1 - tile.y0) * samples_;
-  const auto sample = [&](std::uint64_t i) {
-    const auto pixel = static_cast<std::uint32_t>(i / samples_);
-    return PixelSample{tile.x0 + static_cast<int>(pixel % width), tile.y0 + static_cast<int>(pixel / width),
-                       static_cast<int>(i % samples_)};
+  PixelSample next{tile.x0, tile.y0, 0};
+  const auto take = [&](PixelSample& sample) {
+    if (next.y >= tile.y1) return false;
+    sample = next;
+    if (++next.sample < samples_) return true;
+    next.sample = 0;
+    if (++next.x < tile.x1) return true;
+    next.x = tile.x0;
+    ++next.y;
+    return true;
   };
   Eigen::Array3d sum = Eigen::Array3d::Zero();
-  for (std::uint64_t first = 0; first < total;) {
-    const std::size_t count =
-        trace_some([&](std::size_t lane) { return sample(first + lane); }, total - first, numbers, means);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const PixelSample s = sample(first + lane);
-      sum += radiance_[lane].cast<double>();
-      if (statistics != nullptr) statistics->add(s.x, s.y, s.sample, radiance_[lane]);
-      if ((first + lane + 1) % samples_ != 0) continue;
-      float* out = color + 3 * (static_cast<std::size_t>(s.y) * static_cast<std::size_t>(camera_.width()) +
-                                static_cast<std::size_t>(s.x));
-      for (int k = 0; k < 3; ++k) out[k] = static_cast<float>(sum[k] / samples_);
-      sum.setZero();
-    }
-    first += count;
-  }
+  const auto put = [&](const PixelSample& s, const Color& radiance) {
+    sum += radiance.cast<double>();
+    if (statistics != nullptr) statistics->add(s.x, s.y, s.sample, radiance);
+    if (s.sample + 1 < samples_) return;
+    float* out = color + 3 * (static_cast<std::size_t>(s.y) * static_cast<std::size_t>(camera_.width()) +
+                              static_cast<std::size_t>(s.x));
+    for (int k = 0; k < 3; ++k) out[k] = static_cast<float>(sum[k] / samples_);
+    sum.setZero();
+  };
+  trace_all(take, put, numbers, means);
 }
 
 void PathTracer::trace(std::span<const PixelSample> of, const FrameSamples& numbers,
                        std::span<Color> radiance, TileMeans* means) {
-  for (std::size_t first = 0; first < of.size();) {
-    const std::size_t count =
-        trace_some([&](std::size_t lane) { return of[first + lane]; }, of.size() - first, numbers, means);
-    std::copy(radiance_.begin(), radiance_.end(), radiance.begin() + static_cast<std::ptrdiff_t>(first));
-    first += count;
-  }
+  std::size_t taken = 0, traced = 0;
+  const auto take = [&](PixelSample& sample) {
+    if (taken == of.size()) return false;
+    sample = of[taken++];
+    return true;
+  };
+  const auto put = [&](const PixelSample&, const Color& value) { radiance[traced++] = value; };
+  trace_all(take, put, numbers, means);
 }
 
-/// As many of the samples `of(0)` .. `of(most - 1)` as make a batch: those whose numbers have one key.
-template <class Samples>
-std::size_t PathTracer::trace_some(const Samples& of, std::uint64_t most, const FrameSamples& numbers,
-                                   TileMeans* means) {
-  Row<std::uint32_t>& number = numbers_;
+/// Traces the samples that `take` gives until it returns false, and gives `put` each with its radiance, in
+/// the same order. A batch is of samples whose numbers have one key.
+template <class Take, class Put>
+void PathTracer::trace_all(const Take& take, const Put& put, const FrameSamples& numbers, TileMeans* means) {
   std::array<PixelSample, batch_size> samples;
-  std::size_t count = 0;
-  for (; count < std::min<std::uint64_t>(batch_size, most); ++count) {
-    samples[count] = of(count);
-    const PathSamples own = numbers.path(samples[count].x, samples[count].y, samples[count].sample);
-    if (count == 0) key_ = own.key();
-    if (own.key() != key_) break;
-    number[count] = own.number();
+  PixelSample sample{};
+  bool more = take(sample);
+  while (more) {
+    key_ = numbers.key(sample.x, sample.y);
+    std::size_t count = 0;
+    std::uint32_t pixel = numbers.pixel(sample.x, sample.y);
+    do {
+      samples[count] = sample;
+      numbers_[count++] = reverse_bits(numbers.index(pixel, sample.sample));
+      more = take(sample);
+      if (more && (sample.x != samples[count - 1].x || sample.y != samples[count - 1].y)) {
+        if (numbers.key(sample.x, sample.y) != key_) break;
+        pixel = numbers.pixel(sample.x, sample.y);
+      }
+    } while (more && count < batch_size);
+    radiance_.assign(count, Color::Zero());
+    indirect_.assign(count, 0);
+    first_hits_.assign(means != nullptr ? count : 0, FirstHit{});
+    begin_paths({samples.data(), count});
+    for (std::uint32_t depth = 0; paths_->rays.count > 0; ++depth) trace_batch(depth);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      put(samples[lane], radiance_[lane]);
+      if (means != nullptr) means->add(samples[lane].x, samples[lane].y, radiance_[lane], first_hits_[lane]);
+    }
   }
-  radiance_.assign(count, Color::Zero());
-  indirect_.assign(count, 0);
-  first_hits_.assign(means != nullptr ? count : 0, FirstHit{});
-  begin_paths({samples.data(), count});
-  for (std::uint32_t depth = 0; paths_->rays.count > 0; ++depth) trace_batch(depth);
-  for (std::size_t lane = 0; means != nullptr && lane < count; ++lane)
-    means->add(samples[lane].x, samples[lane].y, radiance_[lane], first_hits_[lane]);
-  return count;
 }
 
 /// Path k is of lane k.
@@ -139,12 +148,17 @@ void PathTracer::begin_paths(std::span<const PixelSample> of) {
   draw_pairs(pair_keys(key_, pixel_dimension), of.size(), numbers_.data(), pairs.u.data(), pairs.v.data());
   const bool lens = camera_.lens_radius() > 0.0F;
   for (std::size_t i = 0; i < of.size(); ++i) {
-    const float px = static_cast<float>(of[i].x) + 0.5F + filter_.offset(pairs.u[i]);
-    const float py = static_cast<float>(of[i].y) + 0.5F + filter_.offset(pairs.v[i]);
-    const Ray ray =
-        lens ? camera_.ray(px, py, aperture_.point(samples_of(i).pair(lens_dimension))) : camera_.ray(px, py);
-    paths.rays.origin.set(i, f3(ray.origin));
-    paths.rays.direction.set(i, f3(ray.direction));
+    pairs.u[i] = static_cast<float>(of[i].x) + 0.5F + filter_.offset(pairs.u[i]);
+    pairs.v[i] = static_cast<float>(of[i].y) + 0.5F + filter_.offset(pairs.v[i]);
+  }
+  if (!lens) camera_rays(camera_.view_plane(), pairs, paths.rays);
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    if (lens) {
+      const Ray ray =
+          camera_.ray(pairs.u[i], pairs.v[i], aperture_.point(samples_of(i).pair(lens_dimension)));
+      paths.rays.origin.set(i, f3(ray.origin));
+      paths.rays.direction.set(i, f3(ray.direction));
+    }
     paths.throughput.set(i, {1.0F, 1.0F, 1.0F});
     paths.bsdf_pdf[i] = 0.0F;
     paths.sky_pdf[i] = 0.0F;
@@ -245,7 +259,7 @@ void PathTracer::arrive(std::uint32_t depth) {
     const std::uint32_t lane = paths.lane[i];
     Ahead ahead = look(i);
     if (depth == 0) {
-      add_light(lane, seen_by_camera(paths.rays[i], ahead));
+      if (!ahead.on_mesh || any_visible_) add_light(lane, seen_by_camera(paths.rays[i], ahead));
     } else {
       const Color light = light_met(i, ahead);
       if (light.maxCoeff() > 0.0F) add_light(lane, color(paths.throughput[i]) * light);

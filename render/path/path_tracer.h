@@ -102,8 +102,8 @@ private:
   };
   struct Batch;
 
-  template <class Samples>
-  std::size_t trace_some(const Samples& of, std::uint64_t most, const FrameSamples&, TileMeans*);
+  template <class Take, class Put>
+  void trace_all(const Take&, const Put&, const FrameSamples&, TileMeans*);
   void begin_paths(std::span<const PixelSample>);
   void trace_batch(std::uint32_t depth);
   void pass_through(std::uint32_t depth);
@@ -125,7 +125,11 @@ private:
   void enter_cloudy_inside(const Ray&, const MeshHit&, const Vec3& from, float choice, Pair way,
                            std::uint32_t depth);
   void leave_cloudy_insides();
-  void add_light(std::uint32_t lane, const Color&);
+  void add_light(std::uint32_t lane, const Color& light) {
+    const float most = light.maxCoeff();
+    const bool cut = clamp_ > 0.0F && indirect_[lane] != 0 && most > clamp_;
+    radiance_[lane] += cut ? Color(clamp_ / most * light) : light;
+  }
   bool all_lights_at(std::uint32_t depth) const;
   float pick_probability(std::size_t light, std::uint32_t depth) const;
   PathSamples samples_of(std::size_t lane) const { return {key_, SampleNumber{numbers_[lane]}}; }
@@ -147,8 +151,10 @@ private:
   const PixelFilter& filter_;
   Aperture aperture_;
   bool moving_;  // rays have times
-  std::uint32_t samples_, bounces_, clear_bounces_;
-  float clamp_;  // of indirect light; 0: none
+  int samples_;
+  std::uint32_t bounces_, clear_bounces_;
+  bool any_visible_ = false;  // of the lights
+  float clamp_;               // of indirect light; 0: none
 
   std::uint64_t key_ = 0;  // of the batch's sample numbers, whose indices `numbers_` has by lane
   Row<std::uint32_t> numbers_{};

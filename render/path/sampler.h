@@ -108,12 +108,19 @@ public:
       : key_(mix((static_cast<std::uint64_t>(seed) << 32) + static_cast<std::uint32_t>(frame) + 1ULL)),
         sample_bits_(std::bit_width(static_cast<std::uint32_t>(samples - 1))) {}
 
-  PathSamples path(int x, int y, int sample) const {
+  PathSamples path(int x, int y, int sample) const { return {key(x, y), index(pixel(x, y), sample)}; }
+
+  /// The same in parts: the key of a block's pixels, a pixel's place there, and the index of a path.
+  std::uint64_t key(int x, int y) const {
     const std::uint64_t block =
         (static_cast<std::uint64_t>(y >> 7) << 32) | static_cast<std::uint32_t>(x >> 7);
-    const std::uint32_t pixel =
-        spread(static_cast<std::uint32_t>(x) & 127U) | (spread(static_cast<std::uint32_t>(y) & 127U) << 1);
-    return {mix(key_ + block), (pixel << sample_bits_) | static_cast<std::uint32_t>(sample)};
+    return mix(key_ + block);
+  }
+  static std::uint32_t pixel(int x, int y) {
+    return spread(static_cast<std::uint32_t>(x) & 127U) | (spread(static_cast<std::uint32_t>(y) & 127U) << 1);
+  }
+  std::uint32_t index(std::uint32_t pixel, int sample) const {
+    return (pixel << sample_bits_) | static_cast<std::uint32_t>(sample);
   }
 
 private:

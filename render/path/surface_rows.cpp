@@ -104,6 +104,21 @@ LAGOMORPH_RENDER_SIMD void draw_pairs(const PairKeys& keys, std::size_t count, c
   }
 }
 
+LAGOMORPH_RENDER_SIMD void camera_rays(const Camera::ViewPlane& view, const PairRows& points, RayRows& rays) {
+  const F3 position = f3(view.position), right = f3(view.right), up = f3(view.up), forward = f3(view.forward);
+  const float width = view.width, height = view.height;
+  const bool parallel = view.orthographic;
+  const std::size_t count = rays.count;
+  LAGOMORPH_ROWS
+  for (std::size_t i = 0; i < count; ++i) {
+    const float x = 2.0F * points.u[i] / width - 1.0F;
+    const float y = 1.0F - 2.0F * points.v[i] / height;
+    const F3 across = x * right + y * up;
+    rays.origin.set(i, select(parallel, position + across, position));
+    rays.direction.set(i, select(parallel, forward, normalized(across + forward)));
+  }
+}
+
 LAGOMORPH_RENDER_SIMD void sample_light(const Rectangle& light, F3 radiance, float pick, std::uint32_t k,
                                         const SurfaceRow<std::uint32_t>& which, const SurfaceRows& s,
                                         const PairRows& pairs, ArrivingRows& out) {

@@ -79,6 +79,9 @@ struct PairRows {
 };
 void draw_pairs(const PairKeys&, std::size_t count, const std::uint32_t* numbers, float* u, float* v);
 
+/// Rays through the points (u, v) of the picture [pixels].
+void camera_rays(const Camera::ViewPlane&, const PairRows& points, RayRows&);
+
 /// Light that may arrive at surfaces from one direction each.
 struct ArrivingRows {
   Row3<most_surfaces> direction;

@@ -2,7 +2,7 @@
 
 #include <limits>
 #include <memory>
-#include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -11,18 +11,6 @@
 
 namespace lagomorph::render::path {
 namespace ray_caster_test {
-
-std::vector<Ray> random_rays(int count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::normal_distribution<float> normal;
-  std::vector<Ray> rays;
-  for (int i = 0; i < count; ++i) {
-    const Vec3 from = 2.0F * Vec3(normal(random), normal(random), normal(random));
-    const Vec3 to = 0.5F * Vec3(normal(random), normal(random), normal(random));
-    rays.push_back({from, (to - from).normalized()});
-  }
-  return rays;
-}
 
 /// Distance to the nearest triangle by trying all, in double precision; infinite where there is none.
 double nearest(const std::vector<Mesh>& meshes, const Ray& ray) {
@@ -38,10 +26,6 @@ double nearest(const std::vector<Mesh>& meshes, const Ray& ray) {
     }
   }
   return best;
-}
-
-std::vector<Mesh> two_spheres() {
-  return {make_sphere(2, 0.8F, Vec3::Zero()), make_sphere(2, 0.5F, Vec3(0.6F, 0.5F, 0.4F))};
 }
 
 std::vector<Vec3> squashed(const Mesh& mesh, float amount) {

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
+#include <random>
 #include <utility>
+#include <vector>
 
+#include "render/camera.h"
 #include "render/render_scene.h"
 
 namespace lagomorph::render {
@@ -59,6 +63,23 @@ inline Mesh make_box(const Vec3& low, const Vec3& high) {
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   mesh.smooth = false;
   return mesh;
+}
+
+inline std::vector<Mesh> two_spheres() {
+  return {make_sphere(2, 0.8F, Vec3::Zero()), make_sphere(2, 0.5F, Vec3(0.6F, 0.5F, 0.4F))};
+}
+
+/// From all around, at what is near the origin.
+inline std::vector<Ray> random_rays(std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<float> normal;
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 from = 2.0F * Vec3(normal(random), normal(random), normal(random));
+    const Vec3 to = 0.5F * Vec3(normal(random), normal(random), normal(random));
+    rays.push_back({from, (to - from).normalized()});
+  }
+  return rays;
 }
 
 }  // namespace lagomorph::render
