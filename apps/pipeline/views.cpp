@@ -165,25 +165,25 @@ render::Camera Views::camera(const View& view, int frame, const sim::VecX& q) co
 }
 
 render::Image Views::draw(render::Renderer& renderer, render::FrameInfo frame, const View& view,
-                          const sim::VecX& q, const sim::VecX* before) const {
+                          const sim::VecX& q, const Motion* motion) const {
   std::optional<render::Camera> camera_before;
-  if (before != nullptr && frame.frame > 0) {
-    camera_before = camera(view, frame.frame - 1, *before);
+  if (motion != nullptr && frame.frame > 0) {
+    camera_before = camera(view, frame.frame - 1, motion->before);
     frame.camera_before = &*camera_before;
   }
   return renderer.render(camera(view, frame.frame, q), frame);
 }
 
 render::Image Views::draw(render::Renderer& renderer, render::FrameInfo frame, const sim::VecX& q,
-                          const sim::VecX* before) const {
+                          const Motion* motion) const {
   if (scene_.panel.empty()) {
     color(renderer, *views_.front(), q);
-    return draw(renderer, frame, *views_.front(), q, before);
+    return draw(renderer, frame, *views_.front(), q, motion);
   }
   render::Image whole(scene_.render.width, scene_.render.height);
   for (const std::unique_ptr<View>& view : views_) {
     color(renderer, *view, q);
-    paste(draw(renderer, frame, *view, q, before), view->place, whole);
+    paste(draw(renderer, frame, *view, q, motion), view->place, whole);
   }
   return whole;
 }

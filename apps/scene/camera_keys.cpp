@@ -49,8 +49,8 @@ void visit_lens(render::CameraSettings& c, KeyVisitor& v) {
       {.name = "shutter",
        .bounds = between(0, 1),
        .meaning =
-           "part of the time between frames that the shutter is open, until the frame (path): motion blur by "
-           "straight lines from the state before; 0.5 is usual. Frame 0 has none"},
+           "part of the time between frames that the shutter is open, until the frame (path): motion blur of "
+           "bodies, on curves by positions and velocities of both states; 0.5 is usual. Frame 0 has none"},
       &c.shutter);
 }
 

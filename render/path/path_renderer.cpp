@@ -68,19 +68,21 @@ public:
   }
 
   void update_positions(int mesh, std::span<const Vec3> positions) override {
-    const Mesh& m = mesh_of(mesh);
-    if (positions.size() != m.positions.size()) {
-      throw SettingsError("mesh '" + m.name + "' has " + std::to_string(m.positions.size()) + " positions; " +
-                          std::to_string(positions.size()) + " were given");
-    }
-    if (!std::all_of(positions.begin(), positions.end(), [](const Vec3& p) { return p.allFinite(); })) {
-      throw SettingsError("mesh '" + m.name + "' has a position that is not finite");
-    }
+    check_positions(mesh_of(mesh), positions);
     geometry_->move(mesh, positions);
   }
 
-  void set_opening(int mesh, std::span<const Vec3> positions) override {
-    if (scene_.moving) geometry_->open(mesh, positions);
+  bool draws_motion_blur() const override { return true; }
+
+  void set_motion(int mesh, std::span<const std::vector<Vec3>> positions) override {
+    const Mesh& m = mesh_of(mesh);
+    if (positions.size() != static_cast<std::size_t>(scene_.motion_segments)) {
+      throw SettingsError("the scene has " + std::to_string(scene_.motion_segments) +
+                          " segments of motion; positions of " + std::to_string(positions.size()) +
+                          " times were given");
+    }
+    for (const std::vector<Vec3>& step : positions) check_positions(m, step);
+    geometry_->set_motion(mesh, positions);
   }
 
   void set_previous(int mesh, std::span<const Vec3> positions) override {
@@ -154,6 +156,16 @@ private:
                           std::to_string(scene_.meshes.size()));
     }
     return scene_.meshes[static_cast<std::size_t>(mesh)];
+  }
+
+  static void check_positions(const Mesh& m, std::span<const Vec3> positions) {
+    if (positions.size() != m.positions.size()) {
+      throw SettingsError("mesh '" + m.name + "' has " + std::to_string(m.positions.size()) + " positions; " +
+                          std::to_string(positions.size()) + " were given");
+    }
+    if (!std::all_of(positions.begin(), positions.end(), [](const Vec3& p) { return p.allFinite(); })) {
+      throw SettingsError("mesh '" + m.name + "' has a position that is not finite");
+    }
   }
 
   bool wants(const char* channel) const {
