@@ -21,6 +21,7 @@ struct FrameInfo {
   double time = 0.0;  // [s]
   const Camera* camera_before =
       nullptr;  // of the frame before, for motion vectors; nullptr: it has not moved
+  std::span<const Camera> shutter_cameras = {};  // see camera_at(), the frame's last; none: it stands still
 };
 
 /// A back end. Not for use by two threads at once; a renderer is used by the thread that made it.
@@ -39,7 +40,7 @@ public:
   /// after an update of its positions. Back ends that draw no motion blur ignore it. Throws SettingsError for
   /// another number of times or positions.
   virtual void set_motion(int /*mesh*/, std::span<const std::vector<Vec3>> /*positions*/) {}
-  /// Whether that has an effect.
+  /// Whether set_motion() and FrameInfo::shutter_cameras have an effect.
   virtual bool draws_motion_blur() const { return false; }
   /// Where a mesh was at the frame before, for motion vectors; after an update of its positions it stands
   /// still.

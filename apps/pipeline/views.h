@@ -65,7 +65,9 @@ private:
   std::optional<std::array<double, 6>> fitted_box() const;
   void color(render::Renderer&, const View&, const sim::VecX& q) const;
   double bar_strip() const;
-  render::Camera camera(const View&, int frame, const sim::VecX& q) const;
+  render::Camera camera(const View&, double frame, const sim::VecX& q) const;
+  std::vector<render::Camera> shutter_cameras(const View&, int frame, const sim::VecX& q,
+                                              const Motion&) const;
   render::Image draw(render::Renderer&, render::FrameInfo, const View&, const sim::VecX& q,
                      const Motion*) const;
 

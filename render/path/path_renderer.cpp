@@ -119,7 +119,7 @@ public:
                                                      ? image.add(alpha_channel, 1).data()
                                                      : nullptr};
       std::vector<float>& color = image.add(color_channel, 3);
-      draw_color(camera, frame.frame, color, statistics, counts, means);
+      draw_color(camera, frame, color, statistics, counts, means);
       if (settings_.path.denoise) {
         const std::size_t pixels = color.size() / 3;
         color = denoise({.width = camera.width(),
@@ -206,13 +206,16 @@ private:
   }
 
   /// And the channels of statistics, sample counts and means where they are not nullptr.
-  void draw_color(const Camera& camera, int frame, std::vector<float>& color, float* statistics,
+  void draw_color(const Camera& camera, const FrameInfo& frame, std::vector<float>& color, float* statistics,
                   float* counts, const path::MeanChannels& mean_channels) const {
     const path::AdaptiveSampling adaptive{settings_.path.min_samples, settings_.samples,
                                           static_cast<double>(settings_.path.noise_threshold)};
-    const path::FrameSamples numbers(settings_.path.seed, frame, settings_.samples);
+    const path::FrameSamples numbers(settings_.path.seed, frame.frame, settings_.samples);
+    const std::span<const Camera> open =
+        geometry_->moving() ? frame.shutter_cameras : std::span<const Camera>();
     tbb::enumerable_thread_specific<path::PathTracer> tracers([&] {
-      return path::PathTracer(*geometry_, *shading_, camera, filter_, settings_.samples, settings_.path);
+      return path::PathTracer(*geometry_, *shading_, camera, open, filter_, settings_.samples,
+                              settings_.path);
     });
     for_tiles(camera, [&](const path::Tile& tile) {
       std::optional<path::TileMeans> means;

@@ -46,10 +46,12 @@ float power_heuristic(float pdf, float other) {
 }  // namespace
 
 PathTracer::PathTracer(const SceneGeometry& geometry, const Shading& shading, const Camera& camera,
-                       const PixelFilter& filter, int samples, const PathSettings& settings)
+                       std::span<const Camera> shutter_cameras, const PixelFilter& filter, int samples,
+                       const PathSettings& settings)
     : geometry_(geometry),
       shading_(shading),
       camera_(camera),
+      shutter_cameras_(shutter_cameras),
       filter_(filter),
       aperture_(camera),
       moving_(geometry.moving()),
@@ -133,11 +135,22 @@ void PathTracer::begin_path(std::uint32_t lane, int x, int y, const PathSamples&
   const Pair s = samples.pair(pixel_dimension);
   const float px = static_cast<float>(x) + 0.5F + filter_.offset(s.u);
   const float py = static_cast<float>(y) + 0.5F + filter_.offset(s.v);
-  rays_.push_back(camera_.lens_radius() > 0.0F
-                      ? camera_.ray(px, py, aperture_.point(samples.pair(lens_dimension)))
-                      : camera_.ray(px, py));
-  paths_.push_back({Color::Ones(), 0.0F, 0.0F, std::numeric_limits<float>::infinity(), lane, samples});
   if (moving_) times_.push_back(samples.pair(time_dimension).u);
+  rays_.push_back(shutter_cameras_.empty()
+                      ? camera_ray(camera_, px, py, samples)
+                      : camera_ray(camera_at(shutter_cameras_, times_.back()), px, py, samples));
+  paths_.push_back({Color::Ones(), 0.0F, 0.0F, std::numeric_limits<float>::infinity(), lane, samples});
+}
+
+Ray PathTracer::camera_ray(const Camera& camera, float px, float py, const PathSamples& samples) const {
+  return camera.lens_radius() > 0.0F ? camera.ray(px, py, aperture_.point(samples.pair(lens_dimension)))
+                                     : camera.ray(px, py);
+}
+
+/// Along the view axis of the camera that the path began at. [m]
+float PathTracer::depth_at(std::uint32_t lane, const Ray& ray, double distance) const {
+  return shutter_cameras_.empty() ? camera_.depth(ray, distance)
+                                  : camera_at(shutter_cameras_, times_[lane]).depth(ray, distance);
 }
 
 void PathTracer::finish_batch() {
@@ -193,7 +206,7 @@ void PathTracer::arrive(std::uint32_t depth) {
       const std::optional<Color> color = shading_.textured_ground(geometry_.ground_point(ray, ahead.ground));
       if (keep) {
         keep_first_hit(path.lane, at, color.value_or(shading_.albedos.back()),
-                       camera_.depth(ray, ahead.ground), share);
+                       depth_at(path.lane, ray, ahead.ground), share);
       }
       begin_vertex(at, ray, path, shading_.ground_brdf(), share, color ? &*color : nullptr);
     } else if (ahead.on_mesh) {
@@ -202,7 +215,7 @@ void PathTracer::arrive(std::uint32_t depth) {
       const Bsdf& bsdf = shading_.brdfs[hits_[i].mesh];
       if (keep) {
         keep_first_hit(path.lane, at, color.value_or(shading_.albedos[hits_[i].mesh]),
-                       camera_.depth(ray, ahead.mesh.t), 1.0F);
+                       depth_at(path.lane, ray, ahead.mesh.t), 1.0F);
       }
       // A ray that comes to a back side without having gone in, as from an eye within a body, was in it.
       const bool from_within = path.inside == nullptr && at.inside && bsdf.transmits();

@@ -49,8 +49,9 @@ struct Tile {
 /// one goes on where its random walk leaves the body, as if it had arrived there.
 class PathTracer {
 public:
-  PathTracer(const SceneGeometry&, const Shading&, const Camera&, const PixelFilter&, int samples,
-             const PathSettings&);
+  /// `shutter_cameras` as camera_at() takes them, of geometry that moves; none: the camera stands still.
+  PathTracer(const SceneGeometry&, const Shading&, const Camera&, std::span<const Camera> shutter_cameras,
+             const PixelFilter&, int samples, const PathSettings&);
 
   /// Mean radiance of the tile's pixels into `color`, 3 floats a pixel of the whole picture. Sums go in the
   /// order of the samples. `statistics` and `means`, of the same tile, take every sample; nullptr: none is
@@ -103,6 +104,8 @@ private:
 
   void begin_batch(std::size_t count, bool first_hits);
   void begin_path(std::uint32_t lane, int x, int y, const PathSamples&);
+  Ray camera_ray(const Camera&, float px, float py, const PathSamples&) const;
+  float depth_at(std::uint32_t lane, const Ray&, double distance) const;
   void finish_batch();
   void trace_batch(std::uint32_t depth);
   void pass_through(std::uint32_t depth);
@@ -134,6 +137,7 @@ private:
   const SceneGeometry& geometry_;
   const Shading& shading_;
   const Camera& camera_;
+  std::span<const Camera> shutter_cameras_;
   const PixelFilter& filter_;
   Aperture aperture_;
   bool moving_;  // rays have times
