@@ -21,7 +21,7 @@ while read -r name frame back_end samples size; do
 done <<'SCENES'
 jelly 12 path 512 640x360
 focus 14 path 256 640x360
-motion_blur 5 path 256 640x360
+motion_blur 3 path 256 640x360
 stress 66 raster - 640x360
 two_materials 30 raster - 640x360
 blueprint 24 raster - 960x540

@@ -1,5 +1,6 @@
 #include "render/camera.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -48,6 +49,32 @@ Camera::Camera(const CameraSettings& s, int width, int height)
     throw SettingsError("camera.blades = " + std::to_string(blades_) + " must be 0, a disc, or in 3..64");
   // The focal length is sensor_height / (2 tan(fov/2)), the diameter that over f_stop.
   if (!orthographic_ && s.f_stop > 0.0F) lens_radius_ = s.sensor_height / (4.0F * half_height_ * s.f_stop);
+}
+
+Camera Camera::between(const Camera& a, const Camera& b, float part) {
+  if (part >= 1.0F) return b;
+  const auto mixed = [part](const auto& x, const auto& y) { return x + part * (y - x); };
+  const Vec3 forward = mixed(a.forward_, b.forward_), right = mixed(a.right_, b.right_);
+  const Vec3 side = right - right.dot(forward) / forward.squaredNorm() * forward;
+  constexpr float least = 1e-3F;  // of a half turn there is nothing between
+  if (!(forward.norm() > least && side.norm() > least)) return part < 0.5F ? a : b;
+  Camera c = b;
+  c.forward_ = forward.normalized();
+  c.right_ = side.normalized();
+  c.up_ = c.right_.cross(c.forward_);
+  c.position_ = mixed(a.position_, b.position_);
+  c.half_height_ = mixed(a.half_height_, b.half_height_);
+  c.half_width_ = mixed(a.half_width_, b.half_width_);
+  c.lens_radius_ = mixed(a.lens_radius_, b.lens_radius_);
+  c.focus_distance_ = mixed(a.focus_distance_, b.focus_distance_);
+  return c;
+}
+
+Camera camera_at(std::span<const Camera> cameras, float time) {
+  const std::size_t segments = cameras.size() - 1;
+  const float along = time * static_cast<float>(segments);
+  const std::size_t k = std::min(static_cast<std::size_t>(along), segments - 1);
+  return Camera::between(cameras[k], cameras[k + 1], along - static_cast<float>(k));
 }
 
 Ray Camera::ray(float px, float py) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "render/types.h"
 
@@ -23,6 +24,8 @@ struct CameraSettings {
   int blades = 0;               // of the aperture, 0 (a disc) or 3 .. 64
   float blade_rotation = 0.0F;  // counterclockwise as the camera sees it [degrees]
   float shutter = 0.0F;         // part of the time between frames that it is open, up to the frame, in [0, 1]
+
+  bool operator==(const CameraSettings&) const = default;
 };
 
 struct Ray {
@@ -47,6 +50,11 @@ public:
   const Vec3& right() const { return right_; }
   const Vec3& up() const { return up_; }
   const Vec3& forward() const { return forward_; }
+
+  /// A part of the way from one camera to another of the same kind and size: position, size of the view and
+  /// lens go straight, the axes along the shorter arc between them. 1 is the other itself, and where they
+  /// look opposite ways the nearer of the two.
+  static Camera between(const Camera&, const Camera&, float part);
 
   /// Ray through the point (px, py) of the picture, in pixels from its top left corner.
   Ray ray(float px, float py) const;
@@ -97,5 +105,8 @@ private:
   int blades_;
   float blade_rotation_;  // [degrees]
 };
+
+/// The camera at a time from 0, the shutter opens, to 1, it closes, of two or more at equidistant times.
+Camera camera_at(std::span<const Camera>, float time);
 
 }  // namespace lagomorph::render

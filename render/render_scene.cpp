@@ -114,6 +114,10 @@ void check_scene(const RenderScene& scene) {
   check_color("sky horizon", scene.sky.horizon, largest, "finite, >= 0");
   check_range("sky strength", scene.sky.strength, 0.0F, largest, "finite, >= 0");
   if (scene.background) check_color("background", *scene.background, largest, "finite, >= 0");
+  if (scene.motion_segments < 0 || scene.motion_segments > 128) {
+    throw SettingsError("motion_segments = " + std::to_string(scene.motion_segments) +
+                        " must be in 0 .. 128, the most that the hierarchy holds");
+  }
 }
 
 void check_colors(const std::string& what, std::size_t vertices, std::span<const Color> colors) {

@@ -106,7 +106,9 @@ struct RenderScene {
   std::vector<Sun> suns;
   Sky sky;
   std::optional<Color> background;  // what the camera sees where nothing is; the sky itself when not given
-  bool moving = false;  // meshes may be elsewhere when the shutter opens, see Renderer::set_opening()
+  // Straight pieces of a vertex' way while the shutter is open, see Renderer::set_motion(), in 0 .. 128; 0:
+  // all stands still.
+  int motion_segments = 0;
 };
 
 /// Throws SettingsError, naming the mesh, light or ground, the value and what would be right: indices, finite

@@ -21,6 +21,7 @@ struct FrameInfo {
   double time = 0.0;  // [s]
   const Camera* camera_before =
       nullptr;  // of the frame before, for motion vectors; nullptr: it has not moved
+  std::span<const Camera> shutter_cameras = {};  // see camera_at(), the frame's last; none: it stands still
 };
 
 /// A back end. Not for use by two threads at once; a renderer is used by the thread that made it.
@@ -34,9 +35,13 @@ public:
   virtual void update_positions(int mesh, std::span<const Vec3> positions) = 0;
   /// New colours of scene.meshes[mesh], which has some: one for each vertex, in [0, 1]. Throws SettingsError.
   virtual void update_colors(int mesh, std::span<const Color> colors) = 0;
-  /// Where a mesh is as the shutter opens, when the scene is `moving`: from there it goes straight to its
-  /// positions, after whose update it stands still. Back ends that draw no motion blur ignore it.
-  virtual void set_opening(int /*mesh*/, std::span<const Vec3> /*positions*/) {}
+  /// Where a mesh is while the shutter is open [m]: at scene.motion_segments equidistant times from when it
+  /// opens, all but the last, when it is at its positions. It goes straight between them, and stands still
+  /// after an update of its positions. Back ends that draw no motion blur ignore it. Throws SettingsError for
+  /// another number of times or positions.
+  virtual void set_motion(int /*mesh*/, std::span<const std::vector<Vec3>> /*positions*/) {}
+  /// Whether set_motion() and FrameInfo::shutter_cameras have an effect.
+  virtual bool draws_motion_blur() const { return false; }
   /// Where a mesh was at the frame before, for motion vectors; after an update of its positions it stands
   /// still.
   virtual void set_previous(int /*mesh*/, std::span<const Vec3> /*positions*/) {}

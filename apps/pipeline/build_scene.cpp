@@ -14,6 +14,7 @@
 #include "apps/pipeline/painted_fields.h"
 #include "apps/pipeline/recordings.h"
 #include "apps/scene/panels.h"
+#include "apps/scene/shutter.h"
 #include "render/atmosphere.h"
 #include "render/error.h"
 #include "render/hdr.h"
@@ -237,7 +238,7 @@ render::RenderScene build_render_scene(const SceneDesc& scene, const sim::Model&
     }
   }
   light_by_sky(scene, drawn);
-  drawn.moving = scene.camera.shutter > 0.0F;
+  drawn.motion_segments = scene.camera.shutter > 0.0F ? motion_segments : 0;
   drawn.background = scene.background;
   return drawn;
 }
@@ -255,10 +256,10 @@ void move_meshes(render::Renderer& renderer, const std::vector<sim::Surface>& su
     renderer.update_positions(static_cast<int>(i), close);
     if (motion == nullptr) continue;
     renderer.set_previous(static_cast<int>(i), to_render(surfaces[i].positions(motion->before)));
-    if (motion->shutter <= 0.0) continue;
-    // What a surface is carried to is linear in q.
-    const sim::VecX open = q + motion->shutter * (motion->before - q);
-    renderer.set_opening(static_cast<int>(i), to_render(surfaces[i].positions(open)));
+    if (motion->open.empty()) continue;
+    std::vector<std::vector<render::Vec3>> open;
+    for (const sim::VecX& x : motion->open) open.push_back(to_render(surfaces[i].positions(x)));
+    renderer.set_motion(static_cast<int>(i), open);
   }
 }
 

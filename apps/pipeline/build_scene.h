@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "apps/pipeline/motion.h"
 #include "apps/progress/progress.h"
 #include "apps/scene/scene_desc.h"
 #include "render/render_scene.h"
@@ -40,14 +41,7 @@ render::RenderScene build_render_scene(const SceneDesc&, const sim::Model&, cons
 /// Whether a picture needs the state before: of motion blur and motion vectors.
 bool draws_motion(const SceneDesc&);
 
-/// The state before: for motion vectors, and for blur by a shutter that is open for this part of the time
-/// since then, until the frame.
-struct Motion {
-  sim::VecX before;
-  double shutter = 0.0;
-};
-
-/// Moves the renderer's meshes to where the surfaces are at q; with `motion`, on a straight line to there.
+/// Moves the renderer's meshes to where the surfaces are at q; with `motion`, on its way to there.
 void move_meshes(render::Renderer&, const std::vector<sim::Surface>&, const sim::VecX& q,
                  const Motion* motion = nullptr);
 

@@ -52,13 +52,13 @@ std::optional<std::array<double, 6>> CameraRig::fitted_box() const {
   return std::array<double, 6>{low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
 }
 
-render::CameraSettings CameraRig::settings(int frame, const sim::VecX& q, double strip) const {
+render::CameraSettings CameraRig::settings(double frame, const sim::VecX& q, double strip) const {
   render::CameraSettings settings = moves_.at(frame, box_, strip);
   shift(settings, offset(q));
   return settings;
 }
 
-render::Camera CameraRig::at(int frame, const sim::VecX& q, double strip) const {
+render::Camera CameraRig::at(double frame, const sim::VecX& q, double strip) const {
   return {settings(frame, q, strip), width_, height_};
 }
 

@@ -30,10 +30,10 @@ public:
   /// Whether the bodies' box is fitted into the picture.
   bool is_fitted() const { return fits_; }
 
-  /// The camera of a frame whose bodies are at q. What is fitted leaves a strip free at the right, this part
-  /// of the picture's width.
-  render::CameraSettings settings(int frame, const sim::VecX& q, double strip = 0.0) const;
-  render::Camera at(int frame, const sim::VecX& q, double strip = 0.0) const;
+  /// The camera of a frame, or of a time between frames, when bodies are at q. What is fitted leaves a strip
+  /// free at the right, this part of the picture's width.
+  render::CameraSettings settings(double frame, const sim::VecX& q, double strip = 0.0) const;
+  render::Camera at(double frame, const sim::VecX& q, double strip = 0.0) const;
 
 private:
   sim::Vec3 offset(const sim::VecX& q) const;

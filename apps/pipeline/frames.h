@@ -13,8 +13,8 @@ namespace lagomorph::apps {
 struct StateFrame {
   FrameJob job;
   sim::State state;
-  std::optional<sim::VecX> before;  // positions of the frame before, when the picture tells of motion
-  std::optional<StateRecord> made;  // when it was simulated: what is told of it, without its hash
+  std::optional<sim::State::Level> before;  // the frame before, when the picture tells of motion
+  std::optional<StateRecord> made;          // when it was simulated: what is told of it, without its hash
 };
 
 struct DrawnFrame {

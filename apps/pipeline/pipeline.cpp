@@ -10,6 +10,7 @@
 #include "apps/pipeline/bounded_queue.h"
 #include "apps/pipeline/build_scene.h"
 #include "apps/pipeline/frame_writer.h"
+#include "apps/pipeline/motion.h"
 #include "apps/pipeline/state_source.h"
 #include "apps/pipeline/stop.h"
 #include "apps/pipeline/stopwatch.h"
@@ -50,16 +51,20 @@ DrawnFrame draw(const PipelineInput& in, StateFrame frame) {
   if (!drawn.of.job.draw || stop_asked()) return drawn;  // a stopped run still keeps the state
   const Stopwatch watch;
   std::optional<Motion> motion;
-  if (drawn.of.before)
-    motion = Motion{std::move(*drawn.of.before), static_cast<double>(in.scene.camera.shutter)};
+  if (drawn.of.before) {
+    const double shutter =
+        in.renderer->draws_motion_blur() ? static_cast<double>(in.scene.camera.shutter) : 0.0;
+    motion = motion_between(*drawn.of.before, drawn.of.state, 1.0 / in.scene.time.fps, shutter);
+    drawn.of.before.reset();
+  }
   const sim::VecX& q = drawn.of.state.q;
   {
     const sim::Timed timed(sim::Stage::surface);
     move_meshes(*in.renderer, in.surfaces, q, motion ? &*motion : nullptr);
   }
   const sim::Timed timed(sim::Stage::draw);
-  drawn.image = in.views.draw(*in.renderer, {drawn.of.job.frame, drawn.of.state.t}, q,
-                              motion ? &motion->before : nullptr);
+  drawn.image =
+      in.views.draw(*in.renderer, {drawn.of.job.frame, drawn.of.state.t}, q, motion ? &*motion : nullptr);
   drawn.seconds = watch.seconds();
   return drawn;
 }

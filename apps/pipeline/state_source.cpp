@@ -55,7 +55,7 @@ std::optional<StateFrame> StateSource::next(const FrameJob& job) {
   if (job.draw && job.frame > 0 && draws_motion(scene_)) {
     const bool at_hand = last_ && last_->frame == job.frame - 1;
     if (!at_hand) last_ = read(job.frame - 1);
-    frame.before = last_->q;
+    frame.before = {.t = last_->t, .q = last_->q, .qdot = last_->qdot};
   }
   if (!job.simulate) {
     frame.state = read(job.frame);

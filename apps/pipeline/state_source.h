@@ -16,7 +16,7 @@ class StateSource {
 public:
   StateSource(const SceneDesc&, const sim::Model&, sim::Integrator&, const RunPaths&, bool log_newton);
 
-  /// The state of a job's frame, and the positions of the one before it where the picture tells of motion.
+  /// The state of a job's frame, and what the one before it was where the picture tells of motion.
   /// The one before it must have been given, or be on disk. nullopt when the simulation cannot go on;
   /// failure() says why. Throws Error(wrong_input) for a file that is no state of this model.
   std::optional<StateFrame> next(const FrameJob&);

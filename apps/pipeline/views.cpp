@@ -9,6 +9,7 @@
 #include "apps/pipeline/build_scene.h"
 #include "apps/pipeline/crop.h"
 #include "apps/pipeline/finish_picture.h"
+#include "apps/scene/shutter.h"
 #include "render/channels.h"
 
 namespace lagomorph::apps {
@@ -160,30 +161,52 @@ double Views::bar_strip() const {
   return strip;
 }
 
-render::Camera Views::camera(const View& view, int frame, const sim::VecX& q) const {
+render::Camera Views::camera(const View& view, double frame, const sim::VecX& q) const {
   return view.rig.at(frame, q, view.rig.is_fitted() ? bar_strip() : 0.0);
 }
 
+/// While the shutter is open, the frame's last; none where the camera stands still. Its own moves are those
+/// of the time between frames, and what it follows goes as the bodies do.
+std::vector<render::Camera> Views::shutter_cameras(const View& view, int frame, const sim::VecX& q,
+                                                   const Motion& motion) const {
+  const double strip = view.rig.is_fitted() ? bar_strip() : 0.0;
+  const render::CameraSettings last = view.rig.settings(frame, q, strip);
+  std::vector<render::Camera> cameras;
+  bool moves = false;
+  for (std::size_t i = 0; i < motion.open.size(); ++i) {
+    const double when = frame - frames_to_go(static_cast<int>(i), motion.shutter);
+    const render::CameraSettings settings = view.rig.settings(when, motion.open[i], strip);
+    moves = moves || settings != last;
+    cameras.emplace_back(settings, view.place.width, view.place.height);
+  }
+  if (!moves) return {};
+  cameras.emplace_back(last, view.place.width, view.place.height);
+  return cameras;
+}
+
 render::Image Views::draw(render::Renderer& renderer, render::FrameInfo frame, const View& view,
-                          const sim::VecX& q, const sim::VecX* before) const {
+                          const sim::VecX& q, const Motion* motion) const {
   std::optional<render::Camera> camera_before;
-  if (before != nullptr && frame.frame > 0) {
-    camera_before = camera(view, frame.frame - 1, *before);
+  std::vector<render::Camera> open;
+  if (motion != nullptr && frame.frame > 0) {
+    camera_before = camera(view, frame.frame - 1, motion->before);
     frame.camera_before = &*camera_before;
+    open = shutter_cameras(view, frame.frame, q, *motion);
+    frame.shutter_cameras = open;
   }
   return renderer.render(camera(view, frame.frame, q), frame);
 }
 
 render::Image Views::draw(render::Renderer& renderer, render::FrameInfo frame, const sim::VecX& q,
-                          const sim::VecX* before) const {
+                          const Motion* motion) const {
   if (scene_.panel.empty()) {
     color(renderer, *views_.front(), q);
-    return draw(renderer, frame, *views_.front(), q, before);
+    return draw(renderer, frame, *views_.front(), q, motion);
   }
   render::Image whole(scene_.render.width, scene_.render.height);
   for (const std::unique_ptr<View>& view : views_) {
     color(renderer, *view, q);
-    paste(draw(renderer, frame, *view, q, before), view->place, whole);
+    paste(draw(renderer, frame, *view, q, motion), view->place, whole);
   }
   return whole;
 }

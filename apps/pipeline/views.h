@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/pipeline/camera_rig.h"
+#include "apps/pipeline/motion.h"
 #include "apps/pipeline/overlays.h"
 #include "apps/pipeline/surface_fields.h"
 #include "apps/run/record.h"
@@ -41,10 +42,10 @@ public:
   /// What has no effect or is not all there, a line each.
   std::vector<std::string> remarks() const;
 
-  /// Draws a frame whose bodies are, and in the renderer's scene already stand, at q; `before` are the
-  /// positions a frame earlier, or nullptr.
+  /// Draws a frame whose bodies are, and in the renderer's scene already stand, at q; `motion` is how
+  /// they came there, or nullptr.
   render::Image draw(render::Renderer&, render::FrameInfo, const sim::VecX& q,
-                     const sim::VecX* before = nullptr) const;
+                     const Motion* motion = nullptr) const;
   /// The picture of it: tone curve, overlays, colour bars, titles, caption. `told` is the state's record.
   render::Picture finish(const render::Image&, const sim::State&, const StateRecord& told) const;
   /// The camera, of the first panel where there are some.
@@ -64,9 +65,11 @@ private:
   std::optional<std::array<double, 6>> fitted_box() const;
   void color(render::Renderer&, const View&, const sim::VecX& q) const;
   double bar_strip() const;
-  render::Camera camera(const View&, int frame, const sim::VecX& q) const;
+  render::Camera camera(const View&, double frame, const sim::VecX& q) const;
+  std::vector<render::Camera> shutter_cameras(const View&, int frame, const sim::VecX& q,
+                                              const Motion&) const;
   render::Image draw(render::Renderer&, render::FrameInfo, const View&, const sim::VecX& q,
-                     const sim::VecX* before) const;
+                     const Motion*) const;
 
   const SceneDesc& scene_;
   const std::vector<sim::Surface>& surfaces_;

@@ -49,8 +49,9 @@ void visit_lens(render::CameraSettings& c, KeyVisitor& v) {
       {.name = "shutter",
        .bounds = between(0, 1),
        .meaning =
-           "part of the time between frames that the shutter is open, until the frame (path): motion blur by "
-           "straight lines from the state before; 0.5 is usual. Frame 0 has none"},
+           "part of the time between frames that the shutter is open, until the frame (path): motion blur of "
+           "bodies, on curves by positions and velocities of both states, and of the camera; 0.5 is usual. "
+           "Frame 0 has none"},
       &c.shutter);
 }
 
@@ -128,9 +129,7 @@ void visit_camera(CameraDesc& c, KeyVisitor& v) {
        .choices = follow_choices},
       &c.follow);
   visit_lens(c, v);
-  v.one({.name = "turntable",
-         .meaning = "the camera goes around look_at, about +y; it stands still while the shutter is open",
-         .is_inline = true},
+  v.one({.name = "turntable", .meaning = "the camera goes around look_at, about +y", .is_inline = true},
         c.turntable, visit_turntable);
   v.key(
       {.name = "interpolation",

@@ -122,7 +122,7 @@ CameraMoves::CameraMoves(const CameraDesc& camera, const sim::TimeSettings& time
 }
 
 /// [rad]
-double CameraMoves::turn_at(int frame) const {
+double CameraMoves::turn_at(double frame) const {
   const TurntableDesc& t = camera_.turntable;
   double turns = t.start / 360.0;
   if (t.turns) turns += *t.turns * frame / frames_;
@@ -172,7 +172,7 @@ double CameraMoves::fit(render::CameraSettings& c, const Eigen::AlignedBox3d& bo
                     std::max(reach_right - to_right * distance, to_left * distance - reach_left));
 }
 
-render::CameraSettings CameraMoves::at(int frame, const std::optional<Eigen::AlignedBox3d>& box,
+render::CameraSettings CameraMoves::at(double frame, const std::optional<Eigen::AlignedBox3d>& box,
                                        double strip) const {
   render::CameraSettings c = camera_;
   const double t = frame / fps_;

@@ -14,7 +14,8 @@ namespace lagomorph::apps {
 std::vector<std::string> camera_views();   // none, front, back, left, right, top, bottom, isometric
 std::vector<std::string> camera_frames();  // none, center, rest, motion
 
-/// The camera of each frame, by its keys, view, framing, turntable and zoom. Lengths in metres.
+/// The camera of each frame and of the time between frames, by its keys, view, framing, turntable and zoom.
+/// Lengths in metres.
 class CameraMoves {
 public:
   /// `aspect` is the picture's width over its height.
@@ -22,7 +23,7 @@ public:
 
   /// `box` is what camera.frame aims at; none where nothing is known of it yet. It is fitted into what a
   /// strip at the right leaves, which is this part of the picture's width, at most half.
-  render::CameraSettings at(int frame, const std::optional<Eigen::AlignedBox3d>& box,
+  render::CameraSettings at(double frame, const std::optional<Eigen::AlignedBox3d>& box,
                             double strip = 0.0) const;
 
 private:
@@ -33,7 +34,7 @@ private:
   };
   Track track_of(int size, const auto& value) const;
   double fit(render::CameraSettings&, const Eigen::AlignedBox3d&, double strip) const;
-  double turn_at(int frame) const;
+  double turn_at(double frame) const;
 
   CameraDesc camera_;
   double fps_;

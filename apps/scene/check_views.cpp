@@ -10,6 +10,7 @@
 #include "apps/scene/camera_moves.h"
 #include "apps/scene/panels.h"
 #include "apps/scene/read.h"
+#include "apps/scene/shutter.h"
 #include "render/channels.h"
 
 /// What keys of the camera, its moves, panels and region must hold together.
@@ -84,9 +85,15 @@ void check_moves(const SceneDesc& scene, const std::string& name, const Places& 
   const CameraDesc& c = scene.camera;
   const CameraMoves moves(c, scene.time, static_cast<double>(scene.render.width) / scene.render.height);
   const int last = c.key.empty() ? 0 : std::min(scene.time.frames, most) - 1;
+  const auto check_at = [&](double when, const std::string& told) {
+    check_frame(c, moves.at(when, std::nullopt), told, name, places);
+  };
   for (int frame = 0; frame <= last; ++frame) {
-    check_frame(c, moves.at(frame, std::nullopt), c.key.empty() ? "" : fmt::format("in frame {} ", frame),
-                name, places);
+    check_at(frame, c.key.empty() ? "" : fmt::format("in frame {} ", frame));
+    for (int step = 0; c.shutter > 0.0F && frame > 0 && step < motion_segments; ++step) {
+      check_at(frame - frames_to_go(step, static_cast<double>(c.shutter)),
+               fmt::format("while the shutter of frame {} is open ", frame));
+    }
   }
 }
 

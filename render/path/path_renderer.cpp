@@ -68,19 +68,21 @@ public:
   }
 
   void update_positions(int mesh, std::span<const Vec3> positions) override {
-    const Mesh& m = mesh_of(mesh);
-    if (positions.size() != m.positions.size()) {
-      throw SettingsError("mesh '" + m.name + "' has " + std::to_string(m.positions.size()) + " positions; " +
-                          std::to_string(positions.size()) + " were given");
-    }
-    if (!std::all_of(positions.begin(), positions.end(), [](const Vec3& p) { return p.allFinite(); })) {
-      throw SettingsError("mesh '" + m.name + "' has a position that is not finite");
-    }
+    check_positions(mesh_of(mesh), positions);
     geometry_->move(mesh, positions);
   }
 
-  void set_opening(int mesh, std::span<const Vec3> positions) override {
-    if (scene_.moving) geometry_->open(mesh, positions);
+  bool draws_motion_blur() const override { return true; }
+
+  void set_motion(int mesh, std::span<const std::vector<Vec3>> positions) override {
+    const Mesh& m = mesh_of(mesh);
+    if (positions.size() != static_cast<std::size_t>(scene_.motion_segments)) {
+      throw SettingsError("the scene has " + std::to_string(scene_.motion_segments) +
+                          " segments of motion; positions of " + std::to_string(positions.size()) +
+                          " times were given");
+    }
+    for (const std::vector<Vec3>& step : positions) check_positions(m, step);
+    geometry_->set_motion(mesh, positions);
   }
 
   void set_previous(int mesh, std::span<const Vec3> positions) override {
@@ -117,7 +119,7 @@ public:
                                                      ? image.add(alpha_channel, 1).data()
                                                      : nullptr};
       std::vector<float>& color = image.add(color_channel, 3);
-      draw_color(camera, frame.frame, color, statistics, counts, means);
+      draw_color(camera, frame, color, statistics, counts, means);
       if (settings_.path.denoise) {
         const std::size_t pixels = color.size() / 3;
         color = denoise({.width = camera.width(),
@@ -154,6 +156,16 @@ private:
                           std::to_string(scene_.meshes.size()));
     }
     return scene_.meshes[static_cast<std::size_t>(mesh)];
+  }
+
+  static void check_positions(const Mesh& m, std::span<const Vec3> positions) {
+    if (positions.size() != m.positions.size()) {
+      throw SettingsError("mesh '" + m.name + "' has " + std::to_string(m.positions.size()) + " positions; " +
+                          std::to_string(positions.size()) + " were given");
+    }
+    if (!std::all_of(positions.begin(), positions.end(), [](const Vec3& p) { return p.allFinite(); })) {
+      throw SettingsError("mesh '" + m.name + "' has a position that is not finite");
+    }
   }
 
   bool wants(const char* channel) const {
@@ -194,13 +206,16 @@ private:
   }
 
   /// And the channels of statistics, sample counts and means where they are not nullptr.
-  void draw_color(const Camera& camera, int frame, std::vector<float>& color, float* statistics,
+  void draw_color(const Camera& camera, const FrameInfo& frame, std::vector<float>& color, float* statistics,
                   float* counts, const path::MeanChannels& mean_channels) const {
     const path::AdaptiveSampling adaptive{settings_.path.min_samples, settings_.samples,
                                           static_cast<double>(settings_.path.noise_threshold)};
-    const path::FrameSamples numbers(settings_.path.seed, frame, settings_.samples);
+    const path::FrameSamples numbers(settings_.path.seed, frame.frame, settings_.samples);
+    const std::span<const Camera> open =
+        geometry_->moving() ? frame.shutter_cameras : std::span<const Camera>();
     tbb::enumerable_thread_specific<path::PathTracer> tracers([&] {
-      return path::PathTracer(*geometry_, *shading_, camera, filter_, settings_.samples, settings_.path);
+      return path::PathTracer(*geometry_, *shading_, camera, open, filter_, settings_.samples,
+                              settings_.path);
     });
     for_tiles(camera, [&](const path::Tile& tile) {
       std::optional<path::TileMeans> means;

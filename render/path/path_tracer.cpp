@@ -47,10 +47,12 @@ float power_heuristic(float pdf, float other) {
 }  // namespace
 
 PathTracer::PathTracer(const SceneGeometry& geometry, const Shading& shading, const Camera& camera,
-                       const PixelFilter& filter, int samples, const PathSettings& settings)
+                       std::span<const Camera> shutter_cameras, const PixelFilter& filter, int samples,
+                       const PathSettings& settings)
     : geometry_(geometry),
       shading_(shading),
       camera_(camera),
+      shutter_cameras_(shutter_cameras),
       filter_(filter),
       aperture_(camera),
       moving_(geometry.moving()),
@@ -146,16 +148,18 @@ void PathTracer::begin_paths(std::span<const PixelSample> of) {
   PairRows& pairs = batch_->pairs;
   paths.rays.count = of.size();
   draw_pairs(pair_keys(key_, pixel_dimension), of.size(), numbers_.data(), pairs.u.data(), pairs.v.data());
-  const bool lens = camera_.lens_radius() > 0.0F;
   for (std::size_t i = 0; i < of.size(); ++i) {
     pairs.u[i] = static_cast<float>(of[i].x) + 0.5F + filter_.offset(pairs.u[i]);
     pairs.v[i] = static_cast<float>(of[i].y) + 0.5F + filter_.offset(pairs.v[i]);
+    if (moving_) times_[i] = samples_of(i).pair(time_dimension).u;
   }
-  if (!lens) camera_rays(camera_.view_plane(), pairs, paths.rays);
+  const bool alike = camera_.lens_radius() <= 0.0F && shutter_cameras_.empty();
+  if (alike) camera_rays(camera_.view_plane(), pairs, paths.rays);
   for (std::size_t i = 0; i < of.size(); ++i) {
-    if (lens) {
-      const Ray ray =
-          camera_.ray(pairs.u[i], pairs.v[i], aperture_.point(samples_of(i).pair(lens_dimension)));
+    if (!alike) {
+      const Ray ray = shutter_cameras_.empty() ? camera_ray(camera_, pairs.u[i], pairs.v[i], samples_of(i))
+                                               : camera_ray(camera_at(shutter_cameras_, times_[i]),
+                                                            pairs.u[i], pairs.v[i], samples_of(i));
       paths.rays.origin.set(i, f3(ray.origin));
       paths.rays.direction.set(i, f3(ray.direction));
     }
@@ -167,8 +171,18 @@ void PathTracer::begin_paths(std::span<const PixelSample> of) {
     paths.inside[i] = nullptr;
     paths.clear[i] = 0;
     paths.compressed[i] = 1.0F;
-    if (moving_) times_[i] = samples_of(i).pair(time_dimension).u;
   }
+}
+
+Ray PathTracer::camera_ray(const Camera& camera, float px, float py, const PathSamples& samples) const {
+  return camera.lens_radius() > 0.0F ? camera.ray(px, py, aperture_.point(samples.pair(lens_dimension)))
+                                     : camera.ray(px, py);
+}
+
+/// Along the view axis of the camera that the path began at. [m]
+float PathTracer::depth_at(std::uint32_t lane, const Ray& ray, double distance) const {
+  return shutter_cameras_.empty() ? camera_.depth(ray, distance)
+                                  : camera_at(shutter_cameras_, times_[lane]).depth(ray, distance);
 }
 
 void PathTracer::trace_batch(std::uint32_t depth) {
@@ -311,7 +325,7 @@ void PathTracer::arrive(std::uint32_t depth) {
     s.base_color.set(at, own ? f3(*own) : bsdf.brdf().constants().base_color);
     if (keep) {
       first_hits_[lane].albedo = own.value_or(shading_.albedos[mesh]);
-      first_hits_[lane].depth = camera_.depth(paths.rays[i], distance);
+      first_hits_[lane].depth = depth_at(lane, paths.rays[i], distance);
       first_hits_[lane].opacity = share;
     }
   }
@@ -357,7 +371,7 @@ void PathTracer::arrive_at_layers(std::size_t i, const Ahead& ahead, std::uint32
     const SurfacePoint at = geometry_.arrive_at_ground(ray, ahead.ground);
     const std::optional<Color> own = shading_.textured_ground(geometry_.ground_point(ray, ahead.ground));
     if (keep) {
-      keep_first_hit(lane, at, own.value_or(shading_.albedos.back()), camera_.depth(ray, ahead.ground),
+      keep_first_hit(lane, at, own.value_or(shading_.albedos.back()), depth_at(lane, ray, ahead.ground),
                      share);
     }
     begin_vertex(at, ray, i, shading_.ground_brdf(), share, own ? &*own : nullptr);
@@ -369,7 +383,7 @@ void PathTracer::arrive_at_layers(std::size_t i, const Ahead& ahead, std::uint32
   const std::optional<Color> own = geometry_.color_at(hit, met);
   const Bsdf& bsdf = shading_.brdfs[hit.mesh];
   if (keep)
-    keep_first_hit(lane, at, own.value_or(shading_.albedos[hit.mesh]), camera_.depth(ray, met.t), 1.0F);
+    keep_first_hit(lane, at, own.value_or(shading_.albedos[hit.mesh]), depth_at(lane, ray, met.t), 1.0F);
   // A ray that comes to a back side without having gone in, as from an eye within a body, was in it.
   const bool from_within = paths.inside[i] == nullptr && at.inside && bsdf.transmits();
   absorb(paths, i, from_within ? &bsdf.absorption() : paths.inside[i], met.t);

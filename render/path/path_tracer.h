@@ -53,8 +53,9 @@ struct Tile {
 /// one goes on where its random walk leaves the body, as if it had arrived there.
 class PathTracer {
 public:
-  PathTracer(const SceneGeometry&, const Shading&, const Camera&, const PixelFilter&, int samples,
-             const PathSettings&);
+  /// `shutter_cameras` as camera_at() takes them, of geometry that moves; none: the camera stands still.
+  PathTracer(const SceneGeometry&, const Shading&, const Camera&, std::span<const Camera> shutter_cameras,
+             const PixelFilter&, int samples, const PathSettings&);
   PathTracer(PathTracer&&) noexcept;
   ~PathTracer();
 
@@ -105,6 +106,8 @@ private:
   template <class Take, class Put>
   void trace_all(const Take&, const Put&, const FrameSamples&, TileMeans*);
   void begin_paths(std::span<const PixelSample>);
+  Ray camera_ray(const Camera&, float px, float py, const PathSamples&) const;
+  float depth_at(std::uint32_t lane, const Ray&, double distance) const;
   void trace_batch(std::uint32_t depth);
   void pass_through(std::uint32_t depth);
   bool passes(std::size_t path, std::uint32_t depth, std::uint32_t crossing) const;
@@ -148,6 +151,7 @@ private:
   const SceneGeometry& geometry_;
   const Shading& shading_;
   const Camera& camera_;
+  std::span<const Camera> shutter_cameras_;
   const PixelFilter& filter_;
   Aperture aperture_;
   bool moving_;  // rays have times

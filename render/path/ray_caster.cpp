@@ -160,7 +160,7 @@ struct RayCaster::Impl {
   RTCScene scene = nullptr;
   std::vector<RTCGeometry> geometries;  // a mesh each, owned by the scene; null without triangles
   int packet_width = 4;
-  bool moving = false;
+  unsigned segments = 0;  // of motion; time steps are one more, the frame's last
 
   ~Impl() {
     if (scene != nullptr) rtcReleaseScene(scene);
@@ -201,8 +201,8 @@ RayCaster::RayCaster() : impl_(std::make_unique<Impl>()) {
 
 RayCaster::~RayCaster() = default;
 
-void RayCaster::build(std::span<const Mesh> meshes, bool moving) {
-  impl_->moving = moving;
+void RayCaster::build(std::span<const Mesh> meshes, int segments) {
+  impl_->segments = static_cast<unsigned>(segments);
   if (impl_->scene != nullptr) rtcReleaseScene(impl_->scene);
   impl_->geometries.clear();
   impl_->scene = rtcNewScene(impl_->device);
@@ -217,10 +217,9 @@ void RayCaster::build(std::span<const Mesh> meshes, bool moving) {
     }
     RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
-    // The last time step is the frame.
-    if (moving) rtcSetGeometryTimeStepCount(geometry, 2);
+    if (segments > 0) rtcSetGeometryTimeStepCount(geometry, impl_->segments + 1);
     void* positions = nullptr;
-    for (unsigned step = 0; step < (moving ? 2U : 1U); ++step) {
+    for (unsigned step = 0; step <= impl_->segments; ++step) {
       positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3,
                                           sizeof(Vec3), mesh.positions.size());
       if (positions != nullptr)
@@ -241,13 +240,15 @@ void RayCaster::build(std::span<const Mesh> meshes, bool moving) {
 }
 
 void RayCaster::move(int mesh, std::span<const Vec3> positions) {
-  impl_->set_positions(mesh, impl_->moving ? 1 : 0, positions);
+  impl_->set_positions(mesh, impl_->segments, positions);
 }
 
-void RayCaster::open(int mesh, std::span<const Vec3> positions) { impl_->set_positions(mesh, 0, positions); }
+void RayCaster::move_at(int step, int mesh, std::span<const Vec3> positions) {
+  impl_->set_positions(mesh, static_cast<unsigned>(step), positions);
+}
 
 void RayCaster::commit() {
-  if (impl_->moving) {
+  if (impl_->segments > 0) {
     // Embree refits nothing that moves. One thread makes the same hierarchy whatever the number of threads.
     tbb::task_arena alone(1);
     alone.execute([&] { rtcCommitScene(impl_->scene); });

@@ -26,8 +26,9 @@ enum class Coherence { coherent, incoherent };
 ///
 /// The hierarchy's topology is made from the positions given to build(); move() and commit() refit its boxes.
 /// So the hierarchy of a frame is a function of that frame's positions, whatever was drawn before. With
-/// `moving`, meshes have positions at two times, and commit() makes the hierarchy anew, in one thread. Which
-/// triangle is hit is all that is taken from Embree; see SceneGeometry::arrive.
+/// `segments` of motion, meshes have positions at that many equidistant times and the frame's, go straight
+/// between them, and commit() makes the hierarchy anew, in one thread. Which triangle is hit is all that is
+/// taken from Embree; see SceneGeometry::arrive.
 class RayCaster {
 public:
   /// Throws DeviceError when there is no Embree device.
@@ -37,11 +38,11 @@ public:
   RayCaster& operator=(const RayCaster&) = delete;
 
   /// Throws DeviceError when Embree cannot build it.
-  void build(std::span<const Mesh> meshes, bool moving = false);
+  void build(std::span<const Mesh> meshes, int segments = 0);
   /// New positions of a mesh, as many as it has; seen after commit().
   void move(int mesh, std::span<const Vec3> positions);
-  /// The same at time 0, when `moving`; move() gives those at time 1.
-  void open(int mesh, std::span<const Vec3> positions);
+  /// The same at time step / segments, below 1; move() gives those at time 1.
+  void move_at(int step, int mesh, std::span<const Vec3> positions);
   void commit();
 
   /// Closest hits, one a ray; both sides of a triangle count.

@@ -12,6 +12,17 @@ Vec3 interpolated(const std::vector<Vec3>& x, const Triangle& triangle, double u
   return (a + u * (b - a) + v * (c - a)).cast<float>();
 }
 
+/// A time among equidistant time steps, as Embree takes it: `part` of the way from a step to the next.
+struct TimeSegment {
+  std::size_t step;
+  float part;
+};
+TimeSegment time_segment(std::size_t segments, float time) {
+  const float along = time * static_cast<float>(segments);
+  const std::size_t step = std::min(static_cast<std::size_t>(along), segments - 1);
+  return {step, along - static_cast<float>(step)};
+}
+
 }  // namespace
 
 SceneGeometry::SceneGeometry(const RenderScene& scene)
@@ -21,7 +32,7 @@ SceneGeometry::SceneGeometry(const RenderScene& scene)
             scene.ground.radius,
             scene.ground.fade_start,
             scene.ground.enabled ? static_cast<double>(scene.ground.radius) * scene.ground.radius : -1.0},
-      moving_(scene.moving) {
+      segments_(scene.motion_segments) {
   meshes_.reserve(scene.meshes.size());
   for (const Mesh& m : scene.meshes) {
     meshes_.push_back({m.triangles,
@@ -30,21 +41,20 @@ SceneGeometry::SceneGeometry(const RenderScene& scene)
                        VertexNormals(m.triangles, m.positions.size()),
                        m.smooth,
                        true,
-                       m.material.transmission > 0.0F || m.material.subsurface > 0.0F,
                        m.colors,
                        {},
                        {},
                        {}});
   }
-  caster_.build(scene.meshes, moving_);
+  caster_.build(scene.meshes, segments_);
 }
 
 void SceneGeometry::move(int mesh, std::span<const Vec3> positions) {
   Moving& m = meshes_[static_cast<std::size_t>(mesh)];
   std::copy(positions.begin(), positions.end(), m.positions.begin());
   m.moved = true;
-  m.opening.clear();
-  m.opening_normals.clear();
+  m.way.clear();
+  m.way_normals.clear();
   m.previous.clear();
 }
 
@@ -52,9 +62,9 @@ void SceneGeometry::set_previous(int mesh, std::span<const Vec3> positions) {
   meshes_[static_cast<std::size_t>(mesh)].previous.assign(positions.begin(), positions.end());
 }
 
-void SceneGeometry::open(int mesh, std::span<const Vec3> positions) {
+void SceneGeometry::set_motion(int mesh, std::span<const std::vector<Vec3>> positions) {
   Moving& m = meshes_[static_cast<std::size_t>(mesh)];
-  m.opening.assign(positions.begin(), positions.end());
+  m.way.assign(positions.begin(), positions.end());
   m.moved = true;
 }
 
@@ -70,19 +80,25 @@ void SceneGeometry::commit() {
     m.moved = false;
     any = true;
     if (m.smooth) m.topology.compute(m.triangles, m.positions, m.normals);
-    if (m.smooth && !m.opening.empty()) m.topology.compute(m.triangles, m.opening, m.opening_normals);
+    m.way_normals.resize(m.smooth ? m.way.size() : 0);
+    for (std::size_t step = 0; step < m.way_normals.size(); ++step)
+      m.topology.compute(m.triangles, m.way[step], m.way_normals[step]);
     caster_.move(static_cast<int>(i), m.positions);
-    if (moving_) caster_.open(static_cast<int>(i), m.opening.empty() ? m.positions : m.opening);
+    for (int step = 0; step < segments_; ++step) {
+      caster_.move_at(step, static_cast<int>(i),
+                      m.way.empty() ? m.positions : m.way[static_cast<std::size_t>(step)]);
+    }
   }
   if (any) caster_.commit();
 }
 
-/// Between opening and close as a straight line.
+/// Straight between time steps.
 Vec3 SceneGeometry::position(const Moving& m, std::uint32_t vertex, float time) const {
-  const Vec3& close = m.positions[vertex];
-  if (m.opening.empty()) return close;
-  const Eigen::Vector3d open = m.opening[vertex].cast<double>();
-  return (open + static_cast<double>(time) * (close.cast<double>() - open)).cast<float>();
+  if (m.way.empty()) return m.positions[vertex];
+  const TimeSegment at = time_segment(m.way.size(), time);
+  const std::vector<Vec3>& next = at.step + 1 < m.way.size() ? m.way[at.step + 1] : m.positions;
+  const Eigen::Vector3d a = m.way[at.step][vertex].cast<double>(), b = next[vertex].cast<double>();
+  return (a + static_cast<double>(at.part) * (b - a)).cast<float>();
 }
 
 Corners SceneGeometry::corners(const Moving& m, const Triangle& triangle, float time) const {
@@ -91,8 +107,10 @@ Corners SceneGeometry::corners(const Moving& m, const Triangle& triangle, float 
 }
 
 Vec3 SceneGeometry::normal(const Moving& m, std::uint32_t vertex, float time) const {
-  if (m.opening_normals.empty()) return m.normals[vertex];
-  return ((1.0F - time) * m.opening_normals[vertex] + time * m.normals[vertex]).normalized();
+  if (m.way_normals.empty()) return m.normals[vertex];
+  const TimeSegment at = time_segment(m.way_normals.size(), time);
+  const std::vector<Vec3>& next = at.step + 1 < m.way_normals.size() ? m.way_normals[at.step + 1] : m.normals;
+  return ((1.0F - at.part) * m.way_normals[at.step][vertex] + at.part * next[vertex]).normalized();
 }
 
 Corners SceneGeometry::normals(const Moving& m, const Triangle& triangle, float time) const {

@@ -32,9 +32,10 @@ public:
 
   void move(int mesh, std::span<const Vec3> positions);
   void color(int mesh, std::span<const Color> colors);
-  /// Where the mesh is at time 0, of a scene that is `moving`; move() makes it stand still.
-  void open(int mesh, std::span<const Vec3> positions);
-  bool moving() const { return moving_; }
+  /// Where the mesh is at the time steps before the last, one for each of the scene's motion_segments; move()
+  /// makes it stand still.
+  void set_motion(int mesh, std::span<const std::vector<Vec3>> positions);
+  bool moving() const { return segments_ > 0; }
   /// Where the mesh was at the frame before, for previous_at(); move() makes it stand still.
   void set_previous(int mesh, std::span<const Vec3> positions);
   /// Makes the normals and the hierarchy follow what has moved.
@@ -71,11 +72,11 @@ private:
     VertexNormals topology;
     bool smooth;
     bool moved;
-    bool has_inside;                    // rays go through
-    std::vector<Color> colors;          // a vertex; or none
-    std::vector<Vec3> opening;          // positions at time 0; empty when it stands still
-    std::vector<Vec3> opening_normals;  // likewise
-    std::vector<Vec3> previous;         // positions at the frame before; empty when it stands still
+    std::vector<Color> colors;                   // a vertex; or none
+    std::vector<std::vector<Vec3>> way;          // positions at the time steps before the last; empty when it
+                                                 // stands still
+    std::vector<std::vector<Vec3>> way_normals;  // likewise; empty when not smooth
+    std::vector<Vec3> previous;                  // positions at the frame before; empty when it stands still
   };
   Vec3 position(const Moving&, std::uint32_t vertex, float time) const;
   Corners corners(const Moving&, const Triangle&, float time) const;
@@ -83,7 +84,7 @@ private:
   Corners normals(const Moving&, const Triangle&, float time) const;
   std::vector<Moving> meshes_;
   GroundDisc disc_;
-  bool moving_;
+  int segments_;  // of motion
   RayCaster caster_;
 };
 

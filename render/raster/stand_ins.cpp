@@ -61,8 +61,9 @@ std::vector<std::string> stand_in_remarks(const CameraSettings& camera, const Re
   std::vector<std::string> remarks;
   if (camera.f_stop > 0.0F && !camera.orthographic)
     remarks.emplace_back("camera.f_stop: everything is drawn sharp");
-  if (scene.moving)
-    remarks.emplace_back("camera.shutter: drawn without motion blur, as it is when the shutter closes");
+  if (scene.motion_segments > 0)
+    remarks.emplace_back(
+        "camera.shutter: drawn without motion blur of bodies or camera, as all is when the shutter closes");
   if (!scene.suns.empty()) remarks.emplace_back("a sun is a far square light of its size");
   return remarks;
 }

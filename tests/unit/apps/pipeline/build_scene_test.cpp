@@ -10,6 +10,7 @@
 #include "apps/npy.h"
 #include "apps/pipeline/surface_fields.h"
 #include "apps/scene/scene.h"
+#include "apps/scene/shutter.h"
 #include "sim/error.h"
 #include "tests/support/run_tree.h"
 #include "tests/support/temporary_directory.h"
@@ -29,6 +30,13 @@ public:
   void set_scene(const render::RenderScene& scene) override { meshes.resize(scene.meshes.size()); }
   void update_positions(int mesh, std::span<const render::Vec3> positions) override {
     meshes.at(static_cast<std::size_t>(mesh)).assign(positions.begin(), positions.end());
+  }
+  std::vector<std::vector<render::Vec3>> motion, previous;  // of the last mesh
+  void set_motion(int, std::span<const std::vector<render::Vec3>> positions) override {
+    motion.assign(positions.begin(), positions.end());
+  }
+  void set_previous(int, std::span<const render::Vec3> positions) override {
+    previous.assign(1, {positions.begin(), positions.end()});
   }
   void update_colors(int, std::span<const render::Color>) override {}
   render::Image render(const render::Camera&, const render::FrameInfo&) override { return {}; }
@@ -104,6 +112,42 @@ TEST(BuildScene, MeshesMoveWithTheTets) {
     const render::Vec3 moved = renderer.meshes[0][i] - drawn.meshes[0].positions[i];
     EXPECT_LT((moved - render::Vec3(0.5F, 0.0F, 0.0F)).norm(), 1e-6F);
   }
+}
+
+/// The embedded surface is where the tets carry it at each time of the shutter.
+TEST(BuildScene, MeshesAreOnTheWayOfTheTets) {
+  Progress quiet(true);
+  const SceneDesc scene = bar_scene({"camera.shutter=0.5"});
+  const sim::Model model = build_model(scene, quiet);
+  const auto surfaces = build_surfaces(scene, model, quiet);
+  EXPECT_EQ(build_render_scene(scene, model, surfaces).motion_segments, motion_segments);
+  EXPECT_EQ(build_render_scene(bar_scene(), model, surfaces).motion_segments, 0);
+  ListeningRenderer renderer;
+  renderer.set_scene(build_render_scene(scene, model, surfaces));
+  // All falls from rest, by a meter until the frame.
+  const sim::VecX q = model.initial_state().q;
+  const auto lifted = [&](double y) {
+    sim::VecX moved = q;
+    for (Eigen::Index i = 1; i < q.size(); i += 3) moved[i] += y;
+    return moved;
+  };
+  const sim::VecX rest = sim::VecX::Zero(q.size());
+  sim::State state;
+  state.q = q;
+  state.qdot = lifted(-2.0) - q;
+  const Motion motion = motion_between({.t = 0.0, .q = lifted(1.0), .qdot = rest}, state, 1.0, 0.5);
+  move_meshes(renderer, surfaces, q, &motion);
+  ASSERT_EQ(renderer.motion.size(), static_cast<std::size_t>(motion_segments));
+  for (int step = 0; step < motion_segments; ++step) {
+    const double s = 1.0 - frames_to_go(step, 0.5);
+    const std::vector<render::Vec3>& then = renderer.motion[static_cast<std::size_t>(step)];
+    ASSERT_EQ(then.size(), renderer.meshes[0].size());
+    for (std::size_t i = 0; i < then.size(); ++i) {
+      const render::Vec3 above = then[i] - renderer.meshes[0][i];
+      EXPECT_LT((above - render::Vec3(0.0F, static_cast<float>(1.0 - s * s), 0.0F)).norm(), 1e-6F) << step;
+    }
+  }
+  EXPECT_LT((renderer.previous.at(0)[0] - renderer.meshes[0][0] - render::Vec3(0, 1, 0)).norm(), 1e-6F);
 }
 
 /// The bar's bottom follows a file, each vertex its own way; all start as another file says.

@@ -87,6 +87,19 @@ TEST(CameraMoves, ATurntableComesBack) {
   EXPECT_LT((other.at(2, std::nullopt).position - render::Vec3(0, 1, 2)).norm(), 1e-6F) << "clockwise";
 }
 
+/// For motion blur: between frames the camera is where its own moves have it.
+TEST(CameraMoves, GoOnBetweenFrames) {
+  const SceneDesc turns = scene_of(
+      "[time]\nframes = 8\n[camera]\nposition = [0, 1, 2]\nlook_at = [0, 1, 0]\nturntable = { turns = 1 }");
+  const render::CameraSettings c = moves_of(turns).at(0.5, std::nullopt);
+  const auto angle = static_cast<float>(std::acos(-1.0) / 8.0);
+  EXPECT_LT((c.position - render::Vec3(2.0F * std::sin(angle), 1.0F, 2.0F * std::cos(angle))).norm(), 1e-6F);
+  const SceneDesc keys = scene_of(
+      "[time]\nfps = 10\n[camera]\ninterpolation = \"linear\"\n[[camera.key]]\nframe = 0\nfov = 20\n"
+      "[[camera.key]]\nframe = 10\nfov = 40");
+  EXPECT_FLOAT_EQ(moves_of(keys).at(2.5, std::nullopt).fov, 25.0F);
+}
+
 TEST(CameraMoves, ZoomMagnifiesTheMiddle) {
   const SceneDesc plain = scene_of(""), zoomed = scene_of("[camera]\nzoom = 2.5");
   const render::Camera a(moves_of(plain).at(0, std::nullopt), 640, 360),
@@ -193,6 +206,14 @@ TEST(CameraMoves, WrongKeysAreTold) {
   EXPECT_EQ(error_of(key + "frame = 0\nposition = [0, 0, 3]\nlook_at = [0, 0, 0]\n" + key +
                      "frame = 4\nposition = [0, 0, -3]\n[camera]\ninterpolation = \"linear\""),
             "a.toml:4:11: in frame 2 camera.position and camera.look_at are the same point");
+  const std::string through =
+      key + "frame = 0\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\n" + key +
+      "frame = 4\nposition = [0, 0, -3]\n[time]\nfps = 16\n[camera]\ninterpolation = \"linear\"\n";
+  EXPECT_EQ(error_of(through), "no error") << "frames 2 and 3 are beside what is looked at";
+  EXPECT_EQ(
+      error_of(through + "shutter = 0.5"),
+      "a.toml:4:11: while the shutter of frame 3 is open camera.position and camera.look_at are the same "
+      "point");
 }
 
 /// The box is in what the strip and the margins leave and touches their border; on a turntable at every turn.

@@ -1,8 +1,12 @@
 #include "render/path/scene_geometry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
+#include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "tests/unit/render/path/shapes.h"
@@ -107,6 +111,69 @@ TEST(SceneGeometry, ACoarseSphereContinuesOnItsSmoothSurface) {
     EXPECT_EQ(hit.mesh, MeshHit::none);
   }
   EXPECT_LT(smooth, 0.25 * facet);
+}
+
+/// A sphere on an arc, turning, in three straight pieces.
+Vec3 on_its_way(const Vec3& x, float t) {
+  const Eigen::AngleAxisf turn(1.2F * t, Vec3(0.3F, 1.0F, 0.2F).normalized());
+  return turn * x + Vec3(std::cos(2.0F * t), std::sin(2.0F * t), 0.5F * t);
+}
+
+/// Hits at a time are those of the mesh that stands where Embree's time steps have it then.
+TEST(SceneGeometry, WhatMovesIsMetWhereItIsAtTheRaysTime) {
+  constexpr int segments = 3;
+  const Mesh sphere = make_sphere(2, 0.7F, Vec3::Zero());
+  RenderScene scene = with(sphere);
+  scene.motion_segments = segments;
+  SceneGeometry geometry(scene);
+  std::vector<std::vector<Vec3>> steps(segments + 1, sphere.positions);
+  for (int step = 0; step <= segments; ++step)
+    for (Vec3& x : steps[static_cast<std::size_t>(step)])
+      x = on_its_way(x, static_cast<float>(step) / segments);
+  geometry.move(0, steps.back());
+  geometry.set_motion(0, std::span(steps).first(segments));
+  geometry.commit();
+  std::mt19937 random(6);
+  std::uniform_real_distribution<float> uniform(-1.0F, 1.0F);
+  int met = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const float time = i == 0 ? 1.0F : 0.5F + 0.4999F * uniform(random);
+    const int step = std::min(static_cast<int>(time * segments), segments - 1);
+    const float part = time * segments - static_cast<float>(step);
+    Mesh there = sphere;
+    Vec3 middle = Vec3::Zero();
+    for (std::size_t k = 0; k < there.positions.size(); ++k) {
+      const Vec3 &a = steps[static_cast<std::size_t>(step)][k],
+                 &b = steps[static_cast<std::size_t>(step) + 1][k];
+      there.positions[k] = a + part * (b - a);
+      middle += there.positions[k] / static_cast<float>(there.positions.size());
+    }
+    Ray ray{Vec3(3.0F * uniform(random), 3.0F * uniform(random), 4.0F), Vec3::Zero()};
+    const Vec3 target = middle + 0.6F * Vec3(uniform(random), uniform(random), uniform(random));
+    ray.direction = (target - ray.origin).normalized();
+    ray.time = time;
+    MeshHit hit, of_still;
+    geometry.caster().intersect({&ray, 1}, Coherence::incoherent, {&hit, 1});
+    RenderScene stands = with(there);
+    SceneGeometry still(stands);
+    still.commit();
+    still.caster().intersect({&ray, 1}, Coherence::incoherent, {&of_still, 1});
+    ASSERT_EQ(hit.mesh == MeshHit::none, of_still.mesh == MeshHit::none) << i;
+    if (hit.mesh == MeshHit::none) continue;
+    const SceneGeometry::TriangleHit at = geometry.meet(ray, hit), expected = still.meet(ray, of_still);
+    ASSERT_NEAR(at.t, expected.t, 1e-4) << i;
+    ASSERT_TRUE(at.u >= -1e-4 && at.v >= -1e-4 && at.u + at.v <= 1.0 + 1e-4) << i;
+    const SurfacePoint p = geometry.arrive(ray, hit, at), q = still.arrive(ray, of_still, expected);
+    ASSERT_LT((p.origin - q.origin).norm(), 2e-3F) << i;
+    // Normals are those of the time steps, turned on between them.
+    ASSERT_GT(p.unbent.dot(q.unbent), 0.995F) << i;
+    ASSERT_GT(p.unbent.dot((p.origin - middle).normalized()), 0.98F) << i;
+    ASSERT_LT(
+        (geometry.behind(ray, hit, at) - (ray.origin + static_cast<float>(at.t) * ray.direction)).norm(),
+        1e-3F);
+    ++met;
+  }
+  EXPECT_GT(met, 800);
 }
 
 TEST(SceneGeometry, AHollowContinuesOnItsFacets) {
