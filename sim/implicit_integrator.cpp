@@ -145,6 +145,7 @@ public:
     NewtonReport newton = newton_.minimize(model, phi, q);
     StepReport report{newton.status, newton.iterations, newton.residual, h};
     report.iterates = std::move(newton.iterates);
+    report.solves = newton.solves;
     if (!is_good(report.status)) return report;
     if (phi.a != 1.0 && !is_defined(model, q)) {
       report.status = StepStatus::not_finite;

@@ -127,6 +127,8 @@ struct Stepping {
 StepReport joined(const StepReport& a, const StepReport& b) {
   StepReport both = is_good(b.status) && a.status == StepStatus::rounding_floor ? a : b;
   both.newton_iterations = a.newton_iterations + b.newton_iterations;
+  both.solves = a.solves;
+  both.solves += b.solves;
   both.residual = std::max(a.residual, b.residual);
   both.h = a.h + b.h;
   both.steps = a.steps + b.steps;
@@ -142,6 +144,7 @@ StepReport take_step(const Stepping& with, double h, State& state, FrameReport& 
   const double t = state.t;
   StepReport step = with.integrator.step(with.model, state, h);
   report.newton_iterations += step.newton_iterations;
+  report.solves += step.solves;
   if (!step.iterates.empty()) report.newton.push_back({t, h, step.status, std::move(step.iterates)});
   return step;
 }

@@ -9,6 +9,7 @@
 #include "sim/linear_solver.h"  // linear_algebra_info(), for run.json
 #include "sim/model.h"
 #include "sim/settings.h"
+#include "sim/solve_counts.h"
 
 namespace lagomorph::sim {
 
@@ -40,6 +41,7 @@ struct StepReport {
   double h = 0.0;         // step [s]
   int steps = 1;          // that an explicit scheme had to divide it into to stay stable
   std::vector<NewtonIterate> iterates = {};
+  SolveCounts solves = {};
   double damping_loss = 0.0;  // that damping has turned into heat, >= 0 [J]
   std::optional<double> error =
       {};  // estimate, of the positions at the end [m]; none: a step alone does not tell
@@ -85,6 +87,7 @@ struct FrameReport {
   int rejected = 0;           // steps tried and halved
   int halvings = 0;           // how deep a step had to be halved
   int newton_iterations = 0;  // sum over the steps
+  SolveCounts solves = {};    // likewise
   double residual = 0.0;      // largest
   double damping_loss = 0.0;  // sum over the steps, >= 0 [J]
   double error = 0.0;         // largest estimate of a step, with time.error_tolerance [m]

@@ -1,9 +1,11 @@
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "sim/integrators.h"
 #include "sim/linear_solver.h"
 #include "sim/newton.h"
+#include "sim/solve_counts.h"
 
 namespace lagomorph::sim {
 
@@ -79,8 +81,12 @@ private:
   }
 
   bool factorize() {
+    ++solves_.factorizations;
     FactorStatus status = linear_solver_.factorize(A_);
-    if (status == FactorStatus::not_positive_definite) status = linear_solver_.factorize_indefinite(A_);
+    if (status == FactorStatus::not_positive_definite) {
+      ++solves_.factorizations;
+      status = linear_solver_.factorize_indefinite(A_);
+    }
     return status == FactorStatus::ok;
   }
 
@@ -109,6 +115,7 @@ private:
       norm = refined_norm;
     }
     StepReport report{StepStatus::converged, 1, reference > 0.0 ? norm / reference : 0.0, h};
+    report.solves = std::exchange(solves_, {});
     if (!std::isfinite(norm)) {
       report.status = StepStatus::not_finite;
     } else if (norm > tolerance_ * reference) {
@@ -121,6 +128,7 @@ private:
   double tolerance_;
   HessianKind kind_;
   LinearSolver linear_solver_;
+  SolveCounts solves_;          // of the step
   const Pins* pins_ = nullptr;  // that it is analyzed for
   BlockHessian A_;
   std::optional<BlockHessian> C_;  // of the step, when anything is damped

@@ -265,11 +265,13 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
   pins_ = held;
   solver_.begin(phi.m == 0.0);
   NewtonReport report;
+  const SolveCounts before = solver_.counts();
   const double farthest = kFarthest * (q.cwiseAbs().maxCoeff() + model.mesh().X.cwiseAbs().maxCoeff());
   Point point = evaluate(model, phi, std::exchange(q, {}));  // `end` gives it back
   const auto end = [&](StepStatus status) {
     report.status = status;
     report.residual = point.residual();
+    report.solves = solver_.counts() - before;
     q = std::move(point.q);
     report.balance = std::move(point.balance);
     return report;

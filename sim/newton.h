@@ -6,6 +6,7 @@
 #include "sim/integrator.h"
 #include "sim/model.h"
 #include "sim/settings.h"
+#include "sim/solve_counts.h"
 #include "sim/system_solver.h"
 
 namespace lagomorph::sim {
@@ -39,6 +40,7 @@ struct NewtonReport {
   double residual = 0.0;  // |g_free| over the reference
   VecX balance;  // ∂Φ/∂q, 3n: zero but for the residual where free, the force of the pins where held [N]
   std::vector<NewtonIterate> iterates;
+  SolveCounts solves;
 };
 
 /// Newton's method with a line search. Keeps the symbolic factorization and buffers of one model's topology.

@@ -54,6 +54,7 @@ public:
     NewtonReport newton = newton_.minimize(model, phi, q);
     StepReport report{newton.status, newton.iterations, newton.residual, h};
     report.iterates = std::move(newton.iterates);
+    report.solves = newton.solves;
     report.error = 0.0;
     if (!is_good(report.status)) return report;
     account(model, held, state, q, left, report);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 
 #include "sim/block_hessian.h"
@@ -8,15 +7,9 @@
 #include "sim/linear_solver.h"
 #include "sim/pins.h"
 #include "sim/settings.h"
+#include "sim/solve_counts.h"
 
 namespace lagomorph::sim {
-
-/// How often each way was gone.
-struct SolveCounts {
-  std::int64_t factorizations = 0;
-  std::int64_t cg_iterations = 0;      // preconditioned by the diagonal's blocks
-  std::int64_t factor_iterations = 0;  // preconditioned by the factor of another matrix
-};
 
 /// Solves the systems of one minimization after the other, each to the tolerance asked for, by solver.linear:
 ///
@@ -41,6 +34,7 @@ public:
   /// is what the minimization as a whole still asks for. x goes downhill of ½ xᵀHx - bᵀx.
   FactorStatus solve(const BlockHessian& H, const VecX& b, double tolerance, double goal, VecX& x);
 
+  /// How often each way was gone, in all.
   const SolveCounts& counts() const { return counts_; }
 
 private:

@@ -9,6 +9,7 @@
 #include "apps/run/paths.h"
 #include "apps/run/record.h"
 #include "apps/run/run_json.h"
+#include "apps/run/solves_text.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -22,6 +23,7 @@ struct Sums {
   double simulation = 0.0, rendering = 0.0, writing = 0.0;  // [s]
   double residual = 0.0;                                    // the largest
   int iterations = 0;                                       // of Newton's method
+  sim::SolveCounts solves;
 };
 
 Sums sums_of(const RunPaths& paths, const std::map<int, FrameRecord>& records) {
@@ -33,6 +35,7 @@ Sums sums_of(const RunPaths& paths, const std::map<int, FrameRecord>& records) {
       sums.simulation += record.state->seconds;
       sums.residual = std::max(sums.residual, record.state->report.residual);
       sums.iterations += record.state->report.newton_iterations;
+      sums.solves += record.state->report.solves;
     }
     if (record.picture && fs::exists(paths.picture(frame), none)) {
       sums.pictures.push_back(frame);
@@ -72,6 +75,10 @@ void add_seconds(Report& report, const Sums& sums) {
              fmt::format("{} iterations a frame, largest residual {}",
                          number_text(each(sums.iterations, sums.states.size())), number_text(sums.residual)),
              "newton", {{"iterations", sums.iterations}, {"largest_residual", sums.residual}});
+  report.add("linear systems", solves_text(sums.solves), "linear_systems",
+             {{"factorizations", sums.solves.factorizations},
+              {"cg_iterations", sums.solves.cg_iterations},
+              {"factor_iterations", sums.solves.factor_iterations}});
 }
 
 void add_energy(Report& report, const std::map<int, FrameRecord>& records) {

@@ -1,6 +1,7 @@
 #include "apps/run/record.h"
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <system_error>
 
@@ -29,6 +30,18 @@ Json json_of(const sim::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 /// A number that is not finite is null in JSON.
 double number(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+Json solves_json(const sim::SolveCounts& solves) {
+  return {{"factorizations", solves.factorizations},
+          {"cg_iterations", solves.cg_iterations},
+          {"factor_iterations", solves.factor_iterations}};
+}
+
+/// Zero where they are not told.
+sim::SolveCounts solves_from(const Json& json) {
+  const auto count = [&](const char* key) { return json.value(key, std::int64_t{0}); };
+  return {count("factorizations"), count("cg_iterations"), count("factor_iterations")};
 }
 
 Json newton_json(const std::vector<sim::NewtonLog>& logs) {
@@ -84,6 +97,7 @@ FrameRecord from_json(const Json& json) {
     state.report.rejected = json.value("rejected", 0);
     state.report.halvings = json.at("halvings").get<int>();
     state.report.newton_iterations = json.at("newton_iterations").get<int>();
+    state.report.solves = solves_from(json.value("solves", Json::object()));
     state.report.residual = json.at("residual").get<double>();
     state.report.damping_loss = json.value("damping_loss", 0.0);
     state.report.error = json.value("error", 0.0);
@@ -122,6 +136,7 @@ Json to_json(const FrameRecord& record) {
     json["rejected"] = state.report.rejected;
     json["halvings"] = state.report.halvings;
     json["newton_iterations"] = state.report.newton_iterations;
+    json["solves"] = solves_json(state.report.solves);
     json["residual"] = state.report.residual;
     json["damping_loss"] = state.report.damping_loss;
     json["error"] = state.report.error;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/progress/progress.h"
+#include "apps/run/solves_text.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -73,6 +74,10 @@ std::string result_text(const RunResult& result) {
   if (result.states_made > 0) {
     text += fmt::format("; {} simulated, {} each", counted(result.states_made, "state"),
                         milliseconds(mean.simulation));
+    sim::SolveCounts solves;
+    for (const auto& [frame, record] : result.records)
+      if (record.state) solves += record.state->report.solves;
+    if (const std::string way = way_text(solves); !way.empty()) text += ", by " + way;
   }
   if (result.pictures_made > 0) {
     text += fmt::format("; {} drawn, {} each and {} to write", counted(result.pictures_made, "picture"),

@@ -1,0 +1,27 @@
+#include "apps/run/solves_text.h"
+
+#include <fmt/format.h>
+
+namespace lagomorph::apps {
+
+std::string way_text(const sim::SolveCounts& solves) {
+  std::string text;
+  if (solves.cg_iterations > 0) text = "conjugate gradients";
+  if (solves.factorizations > 0)
+    text += text.empty() ? "Cholesky factorizations" : " and Cholesky factorizations";
+  return text;
+}
+
+std::string solves_text(const sim::SolveCounts& solves) {
+  if (solves.cg_iterations + solves.factorizations == 0) return "none";
+  std::string text;
+  if (solves.cg_iterations > 0)
+    text = fmt::format("{} iterations of conjugate gradients, ", solves.cg_iterations);
+  text += solves.factorizations == 0 ? "no factorization"
+                                     : fmt::format("{} factorizations", solves.factorizations);
+  if (solves.factor_iterations > 0)
+    text += fmt::format(" and {} iterations with a factor kept", solves.factor_iterations);
+  return text;
+}
+
+}  // namespace lagomorph::apps
