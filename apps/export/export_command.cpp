@@ -130,7 +130,7 @@ ExitStatus export_command(const Options& options) {
       state,
       stop_asked,
       [&] { progress.frame_done(); },
-      [&](int passes) { progress.begin(passes * (frames.last - frames.first + 1)); }};
+      [&](int passes) { progress.begin(frames.last - frames.first + 1, passes); }};
 
   std::vector<std::string> files;
   if (format.sequence != nullptr) {

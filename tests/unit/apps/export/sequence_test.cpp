@@ -52,6 +52,14 @@ void expect_near(const std::vector<T>& values, const std::vector<double>& expect
   for (std::size_t i = 0; i < values.size(); ++i) ASSERT_NEAR(values[i], expected[i], kRounding) << i;
 }
 
+TEST_F(ExportSequence, CountsFramesWhateverItsPasses) {
+  expect(0, simulate("run"));
+  for (const char* format : {"gltf", "usda"}) {
+    const Ended ended = run_program({"export", at("run").string(), "--format", format});
+    EXPECT_NE(ended.err.find("frame 4 of 4, "), std::string::npos) << ended.err;
+  }
+}
+
 TEST_F(ExportSequence, GltfMovesByMorphTargets) {
   expect(0, simulate("run"));
   exported("ply");
