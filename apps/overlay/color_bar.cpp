@@ -24,9 +24,9 @@ struct Prefix {
 
 /// That of a value's thousands; none beyond them, for pure numbers, and of units that have one.
 Prefix prefix_of(double size, const std::string& unit) {
-  constexpr std::array<Prefix, 7> prefixes = {
-      {{"G", 1e9}, {"M", 1e6}, {"k", 1e3}, {"", 1.0}, {"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}}};
-  if (unit.empty() || unit.starts_with("k") || size >= 1e12) return {"", 1.0};
+  constexpr std::array<Prefix, 8> prefixes = {
+      {{"T", 1e12}, {"G", 1e9}, {"M", 1e6}, {"k", 1e3}, {"", 1.0}, {"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}}};
+  if (unit.empty() || unit.starts_with("k") || size >= 1e15) return {"", 1.0};
   for (const Prefix& prefix : prefixes)
     if (size >= prefix.factor) return prefix;
   return {"", 1.0};
