@@ -20,7 +20,8 @@ struct FrameInfo {
   int frame = 0;
   double time = 0.0;  // [s]
   const Camera* camera_before =
-      nullptr;  // of the frame before, for motion vectors; nullptr: it has not moved
+      nullptr;                     // of the frame before, for motion vectors; nullptr: it has not moved
+  bool leaves_out_ground = false;  // the scene's, where it has some
 };
 
 /// A back end. Not for use by two threads at once; a renderer is used by the thread that made it.

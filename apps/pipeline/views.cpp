@@ -171,6 +171,7 @@ render::Image Views::draw(render::Renderer& renderer, render::FrameInfo frame, c
     camera_before = camera(view, frame.frame - 1, *before);
     frame.camera_before = &*camera_before;
   }
+  frame.leaves_out_ground = !view.scene.ground.enabled;
   return renderer.render(camera(view, frame.frame, q), frame);
 }
 
