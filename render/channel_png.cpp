@@ -20,6 +20,11 @@ constexpr float png_scale = most_png_number;
 
 float part_of(float value) { return png_scale * std::clamp(value, 0.0F, 1.0F); }
 
+/// Of a length in metres that is there, at least 1 and at most what there is room for; of +inf 0.
+float millimetres(float metres) {
+  return std::isinf(metres) ? 0.0F : std::clamp(1000.0F * metres, 1.0F, png_scale);
+}
+
 /// The value of a channel as a sample, not rounded; NaN becomes 0.
 float sample_of(PngForm form, float value) {
   if (std::isnan(value)) return 0.0F;
@@ -30,6 +35,8 @@ float sample_of(PngForm form, float value) {
       return png_scale * srgb_from_linear(value);
     case PngForm::part:
       return part_of(value);
+    case PngForm::length:
+      return millimetres(value);
     case PngForm::id:
       return value + 1.0F;
     case PngForm::count:

@@ -7,7 +7,7 @@ namespace {
 
 constexpr ChannelKind kinds[] = {
     {.name = color_channel, .parts = "RGB", .components = 3, .is_layer = false},
-    {.name = depth_channel, .parts = "Z", .is_layer = false},
+    {.name = depth_channel, .parts = "Z", .is_layer = false, .png = PngForm::length},
     {.name = normal_channel, .parts = "XYZ", .components = 3, .png = PngForm::unit_vector},
     {.name = albedo_channel, .parts = "RGB", .components = 3, .png = PngForm::color},
     {.name = position_channel, .parts = "XYZ", .components = 3},
@@ -27,7 +27,7 @@ constexpr ChannelKind kinds[] = {
      .components = 3,
      .path_only = true,
      .png = PngForm::unit_vector},
-    {.name = denoising_depth_channel, .parts = "Z", .path_only = true},
+    {.name = denoising_depth_channel, .parts = "Z", .path_only = true, .png = PngForm::length},
     {.name = statistics_channel,
      .parts = "01234567",
      .components = statistics_components,

@@ -49,7 +49,7 @@ inline constexpr int statistics_cell = 8;  // [pixels]
 inline constexpr int statistics_components = 8;
 
 /// How a channel's values stand in a PNG, where they fit: see channel_png.h.
-enum class PngForm { none, unit_vector, color, part, id, count };
+enum class PngForm { none, unit_vector, color, part, length, id, count };
 
 /// A row of the one table of channels.
 struct ChannelKind {

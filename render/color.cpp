@@ -18,6 +18,8 @@ double srgb_curve(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
+double inverse_srgb_curve(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); }
+
 int srgb_code(float linear) { return static_cast<int>(std::floor(255.0 * srgb_curve(linear) + 0.5)); }
 
 /// The exact curve to 8 bits without a power a pixel: the smallest float of every code, and the code at the
@@ -26,13 +28,15 @@ class SrgbTable {
 public:
   SrgbTable() {
     for (int k = 1; k <= 255; ++k) {
-      const double s = (k - 0.5) / 255.0;
-      float x = static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+      auto x = static_cast<float>(inverse_srgb_curve((k - 0.5) / 255.0));
       while (srgb_code(x) >= k) x = std::nextafter(x, 0.0F);
       while (srgb_code(x) < k) x = std::nextafter(x, 1.0F);
       threshold_[static_cast<std::size_t>(k)] = x;
     }
     threshold_[256] = 2.0F;
+    for (int k = 0; k <= 255; ++k)
+      whole_[static_cast<std::size_t>(k)] = static_cast<float>(inverse_srgb_curve(k / 255.0));
+    whole_[256] = 2.0F;
     for (std::uint32_t i = 0; i < buckets; ++i) {
       const float start = std::bit_cast<float>((i << shift) + lowest);
       start_[i] = static_cast<std::uint8_t>(srgb_code(start));
@@ -47,11 +51,22 @@ public:
     return static_cast<std::uint8_t>(c + (x >= threshold_[c + 1] ? 1U : 0U));
   }
 
+  /// The code of what is `offset` codes above, linear in light between two codes. `linear` is not NaN.
+  std::uint8_t code(float linear, float offset) const {
+    const float x = std::clamp(linear, 0.0F, 1.0F);
+    std::uint32_t k = code(x);
+    if (x < whole_[k]) --k;
+    const float part = (x - whole_[k]) / (whole_[k + 1] - whole_[k]);
+    const float value = std::floor(static_cast<float>(k) + (part + (0.5F + offset)));
+    return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F));
+  }
+
 private:
   static constexpr std::uint32_t shift = 15;
   static constexpr std::uint32_t lowest = std::bit_cast<std::uint32_t>(0x1p-13F);
   static constexpr std::uint32_t buckets = ((std::bit_cast<std::uint32_t>(1.0F) - lowest) >> shift) + 1;
   std::array<float, 257> threshold_{};
+  std::array<float, 257> whole_{};  // linear light of each code
   std::array<std::uint8_t, buckets> start_{};
 };
 
@@ -92,23 +107,52 @@ Color pbr_neutral(const Color& in) {
   return c * (new_peak / peak * (1.0F - white)) + new_peak * white;
 }
 
-/// `alpha`: of each pixel, that its colour is divided by; nullptr: 1.
+/// What is added to 8-bit values before they are rounded, of a width of `amount`: the R2 sequence, whose
+/// neighbours are far apart [Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"]. The
+/// same for red, green and blue, so that grey stays grey, and in all frames.
+struct Dither {
+  float amount = 0.0F;
+  std::size_t width = 1;  // of the picture
+
+  float at(std::size_t pixel) const {
+    const auto x = static_cast<std::uint32_t>(pixel % width), y = static_cast<std::uint32_t>(pixel / width);
+    const std::uint32_t point = x * 3242174889U + y * 2447445414U;  // 2^32 / p and / p^2, p^3 = p + 1
+    return amount * (static_cast<float>(point >> 8U) * 0x1p-24F - 0.5F);
+  }
+};
+
+/// Pixels first .. last - 1 of a picture. `alpha`: of each pixel, that its colour is divided by; nullptr: 1.
+struct ToneRange {
+  const float* linear;
+  const float* alpha;
+  std::size_t first, last;
+  float scale;
+  Dither dither;
+};
+
 template <Color (*curve)(const Color&)>
-void map_pixels(const float* linear, const float* alpha, std::size_t pixels, float scale, std::uint8_t* rgb) {
+void map_pixels(const ToneRange& p, std::uint8_t* rgb) {
   static const SrgbTable srgb;
   constexpr float brightest = 1e8F;  // keeps infinite light finite in the curves
-  for (std::size_t i = 0; i < 3 * pixels; i += 3) {
-    Color c = scale * Color(linear[i], linear[i + 1], linear[i + 2]);
-    if (alpha != nullptr && alpha[i / 3] > 0.0F) c /= alpha[i / 3];
+  for (std::size_t pixel = p.first; pixel < p.last; ++pixel) {
+    const float* linear = p.linear + 3 * pixel;
+    Color c = p.scale * Color(linear[0], linear[1], linear[2]);
+    if (p.alpha != nullptr && p.alpha[pixel] > 0.0F) c /= p.alpha[pixel];
     const bool nan = std::isnan(c.x() + c.y() + c.z()) && c.isNaN().any();
     const Color display = nan ? Color(Color::Zero()) : curve(c.max(0.0F).min(brightest));
-    for (int k = 0; k < 3; ++k) rgb[i + static_cast<std::size_t>(k)] = srgb.code(display[k]);
+    std::uint8_t* const to = rgb + 3 * pixel;
+    if (p.dither.amount > 0.0F) {
+      const float offset = p.dither.at(pixel);
+      for (int k = 0; k < 3; ++k) to[k] = srgb.code(display[k], offset);
+    } else {
+      for (int k = 0; k < 3; ++k) to[k] = srgb.code(display[k]);
+    }
   }
 }
 
 struct Row {
   const char* name;
-  void (*map)(const float* linear, const float* alpha, std::size_t pixels, float scale, std::uint8_t* rgb);
+  void (*map)(const ToneRange&, std::uint8_t* rgb);
 };
 constexpr Row curves[] = {
     {"none", map_pixels<clamp_only>},
@@ -134,7 +178,7 @@ float srgb_from_linear(float linear) {
 
 float linear_from_srgb(float srgb) {
   const double s = std::clamp(static_cast<double>(srgb), 0.0, 1.0);
-  return static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+  return static_cast<float>(inverse_srgb_curve(s));
 }
 
 std::vector<std::string> tone_curve_names() {
@@ -143,7 +187,7 @@ std::vector<std::string> tone_curve_names() {
   return names;
 }
 
-Picture tone_map(const Image& image, std::string_view curve, float exposure, bool transparent) {
+Picture tone_map(const Image& image, std::string_view curve, float exposure, bool transparent, float dither) {
   const Row& row = find_curve(curve);
   const Channel* color = image.find("color");
   if (color == nullptr || color->components != 3) {
@@ -161,9 +205,13 @@ Picture tone_map(const Image& image, std::string_view curve, float exposure, boo
   }
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, color->values.size() / 3, 16384),
                     [&](const auto& range) {
-                      row.map(color->values.data() + 3 * range.begin(),
-                              alpha != nullptr ? alpha->values.data() + range.begin() : nullptr, range.size(),
-                              scale, picture.rgb.data() + 3 * range.begin());
+                      row.map({color->values.data(),
+                               alpha != nullptr ? alpha->values.data() : nullptr,
+                               range.begin(),
+                               range.end(),
+                               scale,
+                               {dither, static_cast<std::size_t>(image.width())}},
+                              picture.rgb.data());
                     });
   return picture;
 }

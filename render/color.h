@@ -25,8 +25,11 @@ float linear_from_srgb(float srgb);
 std::vector<std::string> tone_curve_names();
 /// "color" of the image, times 2^exposure, through the named tone curve and sRGB, rounded to 8 bits. NaN
 /// becomes black. Where it is `transparent` the colour is times the channel "alpha", which the picture gets,
-/// rounded to 8 bits, while its own colour is not times it. Throws SettingsError for an unknown curve
-/// (listing the names) or an image without colour.
-Picture tone_map(const Image&, std::string_view curve, float exposure, bool transparent = false);
+/// rounded to 8 bits, while its own colour is not times it. `dither`: colours are
+/// moved before they are rounded, by up to half of so many 8-bit steps either way, a fixed pattern of pixels;
+/// with 1 their mean over many pixels is exact, and black and white stay. Throws SettingsError for an unknown
+/// curve (listing the names) or an image without colour.
+Picture tone_map(const Image&, std::string_view curve, float exposure, bool transparent = false,
+                 float dither = 0.0F);
 
 }  // namespace lagomorph::render

@@ -56,17 +56,22 @@ void add_planes(const Channel& channel, std::vector<ExrPlane>& planes) {
   }
 }
 
-std::string encode(int width, int height, const std::vector<ExrPlane>& planes) {
-  Imf::Header header(width, height);
+std::string encode(int width, int height, const std::vector<ExrPlane>& planes,
+                   const std::optional<PartOfPicture>& part) {
+  const PartOfPicture at = part.value_or(PartOfPicture{0, 0, width, height});
+  const Imath::Box2i display({0, 0}, {at.width - 1, at.height - 1});
+  const Imath::Box2i data({at.x, at.y}, {at.x + width - 1, at.y + height - 1});
+  Imf::Header header(display, data);
   header.compression() = Imf::ZIP_COMPRESSION;
   Imf::addChromaticities(header, {});  // Rec. 709
   Imf::FrameBuffer pixels;
   for (const ExrPlane& plane : planes) {
     header.channels().insert(plane.name, Imf::Channel(Imf::FLOAT));
     // The library writes from what it takes as not const.
-    char* base = reinterpret_cast<char*>(const_cast<float*>(plane.values));
+    float* values = const_cast<float*>(plane.values);
     const std::size_t step = plane.stride * sizeof(float);
-    pixels.insert(plane.name, Imf::Slice(Imf::FLOAT, base, step, step * static_cast<std::size_t>(width)));
+    pixels.insert(plane.name,
+                  Imf::Slice::Make(Imf::FLOAT, values, data, step, step * static_cast<std::size_t>(width)));
   }
   Bytes bytes;
   {
@@ -84,14 +89,14 @@ const Channel& wanted(const Image& image, const std::string& name) {
 
 }  // namespace
 
-std::string encode_exr(const Channel& channel) {
+std::string encode_exr(const Channel& channel, const std::optional<PartOfPicture>& part) {
   std::vector<ExrPlane> planes;
   add_planes(channel, planes);
-  return encode(channel.width, channel.height, planes);
+  return encode(channel.width, channel.height, planes, part);
 }
 
-std::string encode_multilayer_exr(const Image& image, std::span<const std::string> channels,
-                                  bool transparent) {
+std::string encode_multilayer_exr(const Image& image, std::span<const std::string> channels, bool transparent,
+                                  const std::optional<PartOfPicture>& part) {
   std::vector<ExrPlane> planes;
   add_planes(wanted(image, color_channel), planes);
   std::vector<float> opaque;
@@ -100,7 +105,7 @@ std::string encode_multilayer_exr(const Image& image, std::span<const std::strin
   for (const std::string& name : channels) {
     if (name != color_channel && channel_kind(name).cell == 1) add_planes(wanted(image, name), planes);
   }
-  return encode(image.width(), image.height(), planes);
+  return encode(image.width(), image.height(), planes, part);
 }
 
 }  // namespace lagomorph::render

@@ -22,6 +22,7 @@ struct FrameInfo {
   const Camera* camera_before =
       nullptr;  // of the frame before, for motion vectors; nullptr: it has not moved
   std::span<const Camera> shutter_cameras = {};  // see camera_at(), the frame's last; none: it stands still
+  bool leaves_out_ground = false;                // the scene's, where it has some
 };
 
 /// A back end. Not for use by two threads at once; a renderer is used by the thread that made it.

@@ -40,6 +40,7 @@ struct RenderSettings {
   int samples = 64;                        // paths a pixel (path only), 1 .. 65536
   std::string tone_curve = "pbr_neutral";  // see tone_curve_names()
   float exposure = 0.0F;                   // stops: linear light times 2^exposure before the curve
+  float dither = 0.0F;                     // of 8-bit pictures [8-bit steps], 0 .. 2: see tone_map()
   int png_compression = 1;                 // zlib level, 0 .. 12 (libdeflate's)
   std::vector<std::string> channels;       // written beside the picture: see channel_kinds()
   std::string channel_format = "npy";      // of their files; only told to the renderer

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "apps/error.h"
+#include "apps/run/run_json.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -20,6 +21,16 @@ bool is_png(const fs::path& file) {
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Those of a run's pictures. A run.json that another program wrote tells nothing.
+FrameNames names_told(const fs::path& root) {
+  try {
+    return paths_of_run(root).names();
+  } catch (const Error& error) {
+    if (error.status != ExitStatus::wrong_input) throw;
+    return {};
+  }
+}
 
 }  // namespace
 
@@ -39,12 +50,13 @@ std::optional<int> picture_number(const fs::path& file) {
   return number;
 }
 
-PictureFolder list_pictures_in(const fs::path& folder) {
+PictureFolder list_pictures_in(const fs::path& folder, const FrameNames& names) {
   PictureFolder result{folder, {}, {}};
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     if (!is_png(entry.path()) || entry.is_directory(error)) continue;
-    const std::optional<int> number = picture_number(entry.path());
+    std::optional<int> number = names.frame_of(entry.path(), entry.path().extension().string());
+    if (!number) number = picture_number(entry.path());
     if (!number) {
       result.unnumbered.push_back(entry.path().filename().string());
       continue;
@@ -64,7 +76,8 @@ PictureFolder list_pictures(const fs::path& root, const std::string& what) {
   if (!fs::exists(root, error)) wrong_input(fmt::format("{}: there is no such {}", root.string(), what));
   if (!fs::is_directory(root, error))
     wrong_input(fmt::format("{}: is no folder, so no {}", root.string(), what));
-  return list_pictures_in(fs::is_directory(root / "frames", error) ? root / "frames" : root);
+  return list_pictures_in(fs::is_directory(root / "frames", error) ? root / "frames" : root,
+                          names_told(root));
 }
 
 }  // namespace lagomorph::apps

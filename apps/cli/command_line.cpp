@@ -128,17 +128,16 @@ const CommandRow& find_command(const std::string& name) {
 [[noreturn]] void unknown_option(const CommandRow& command, const std::string& argument) {
   const std::string name = argument.substr(0, argument.find('='));
   std::vector<std::string> known = {"--help", "--version"};
+  std::string where;
   for (const OptionRow& row : option_table()) {
-    if (knows(command, row)) {
-      known.push_back(long_name(row));
-    } else if (name == long_name(row)) {
-      std::string where;
-      for (const CommandRow& other : commands) {
-        if (knows(other, row)) where += (where.empty() ? "" : ", ") + std::string(other.name);
-      }
-      wrong_input(fmt::format("'{}' is no option of {}, only of: {}", name, command.name, where));
+    if (knows(command, row)) known.push_back(long_name(row));
+    if (name != long_name(row)) continue;
+    for (const CommandRow& other : commands) {
+      if (knows(other, row)) where += (where.empty() ? "" : ", ") + std::string(other.name);
     }
   }
+  if (!where.empty())
+    wrong_input(fmt::format("'{}' is no option of {}, only of: {}", name, command.name, where));
   const std::string near = nearest(name, known);
   wrong_input(fmt::format("unknown option '{}' of {}; {}", name, command.name,
                           near.empty() ? "known are " + joined(known) : "did you mean '" + near + "'?"));

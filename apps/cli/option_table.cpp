@@ -11,6 +11,7 @@
 #include "apps/check/limits.h"
 #include "apps/cli/command_line.h"
 #include "apps/error.h"
+#include "apps/frame_names.h"
 #include "apps/nearest.h"
 #include "apps/video/video.h"
 #include "render/renderer.h"
@@ -87,6 +88,10 @@ void apply_region(Options& o, const std::string& value) {
         "--region {}: must be X0,Y0,X1,Y1 in pixels from the top left corner, X0 < X1, Y0 < Y1", value));
   }
   o.region = std::move(numbers);
+}
+
+void apply_pattern(Options& o, const std::string& value) {
+  o.pattern = FrameNames(non_empty(value, "--pattern")).pattern();
 }
 
 void apply_levels(Options& o, const std::string& value) {
@@ -210,8 +215,10 @@ constexpr OptionRow option_rows[] = {
      [](Options& o, const std::string&) { o.half = true; }},
     {"--region", "BOX", " run render ",
      "only pixels X0,Y0,X1,Y1, without column X1 and row Y1, to RUN-region", apply_region},
+    {"--pattern", "NAME", " run render ",
+     "names of the pictures, as shot.####.png, # for the digits of frames", apply_pattern},
     {"--pattern", "NAME", " export ", "of png: names as shot.####.png, # for the digits of frames",
-     [](Options& o, const std::string& v) { o.pattern = non_empty(v, "--pattern"); }},
+     apply_pattern},
     {"--backend", "NAME", " run render ", "raster or path, instead of the scene's", apply_backend},
     {"--threads", "N", " run simulate render check preview export compare info ",
      "at most N threads; never changes a result", apply_threads},

@@ -29,7 +29,7 @@ struct Options {
   int every = 1;                                // --every
   bool half = false;                            // --half: drafts
   std::optional<std::vector<int>> region;       // --region: x0, y0, x1, y1
-  std::optional<std::string> pattern;           // export --pattern
+  std::optional<std::string> pattern;           // --pattern
   std::optional<std::string> backend;           // --backend
   int threads = 0;                              // --threads; 0: as many as the process may use
   bool video = false;                           // --video, --codec

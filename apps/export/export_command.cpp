@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "apps/pipeline/camera_rig.h"
 #include "apps/pipeline/production.h"
 #include "apps/pipeline/stop.h"
+#include "apps/pipeline/surface_fields.h"
 #include "apps/run/plan.h"
 #include "apps/run/run_json.h"
 #include "apps/run/state_file.h"
@@ -71,6 +73,15 @@ bool zooms(const CameraDesc& c) {
                      [](const CameraKey& k) { return k.fov || k.orthographic || k.zoom; });
 }
 
+/// Of a state, in the ranges that pictures have: automatic ones of all states that RUN holds.
+std::vector<std::vector<render::Color>> colors_of(const ExportedScene& scene, const StatesOfRun& states,
+                                                  const std::function<sim::State(int)>& state, int frame) {
+  SurfaceFields fields(scene.desc, scene.model, scene.surfaces);
+  if (fields.is_automatic())
+    for (const auto& [seen, record] : states.records()) fields.see(state(seen).q);
+  return fields.colors(state(frame).q);
+}
+
 /// A file a frame, and for vtu the list of their times. False: asked to stop.
 bool write_frames(const ExportedSequence& sequence, const ExportFormat& format, const fs::path& out,
                   std::vector<std::string>& files) {
@@ -120,6 +131,7 @@ ExitStatus export_command(const Options& options) {
     if (std::string_view(format.name) == "gltf" && zooms(scene.camera))
       progress.note(fmt::format("the camera keeps its field of view of frame {} in a .glb", frames.first));
   }
+  if (format.takes_colors) exported.colors = colors_of(exported, states, state, frames.first);
   if (format.remarks != nullptr)
     for (const std::string& line : format.remarks(exported)) progress.note(line);
   const fs::path out = options.out.value_or(run.root() / "export");
@@ -130,7 +142,7 @@ ExitStatus export_command(const Options& options) {
       state,
       stop_asked,
       [&] { progress.frame_done(); },
-      [&](int passes) { progress.begin(passes * (frames.last - frames.first + 1)); }};
+      [&](int passes) { progress.begin(frames.last - frames.first + 1, passes); }};
 
   std::vector<std::string> files;
   if (format.sequence != nullptr) {

@@ -70,7 +70,7 @@ std::string obj(const ExportedScene& scene, const sim::State& state) {
 constexpr ExportFormat formats[] = {{"vtu", ".vtu", true, true, vtu, nullptr, nullptr},
                                     {"ply", ".ply", true, false, ply, nullptr, nullptr},
                                     {"obj", ".obj", false, false, obj, nullptr, nullptr},
-                                    {"gltf", ".glb", false, false, nullptr, write_gltf, gltf_remarks},
+                                    {"gltf", ".glb", false, false, nullptr, write_gltf, gltf_remarks, true},
                                     {"usda", ".usda", true, false, nullptr, write_usd, usd_remarks}};
 
 }  // namespace

@@ -8,6 +8,8 @@
 
 #include "apps/cli/options.h"
 #include "apps/scene/scene_desc.h"
+#include "render/camera.h"
+#include "render/types.h"
 #include "sim/fields.h"
 #include "sim/model.h"
 #include "sim/surface.h"
@@ -22,6 +24,9 @@ struct ExportedScene {
   std::vector<std::string> fields;                                         // names in sim::field_table()
   render::CameraSettings camera;                                           // that of the first frame
   std::function<render::CameraSettings(const sim::State&)> moving_camera;  // none: it stands still
+  /// Linear RGB of each body's vertices in the first frame, by the field it shows; none of one that shows
+  /// none.
+  std::vector<std::vector<render::Color>> colors = {};
 };
 
 /// A run of frames, whose states are read as they are asked for: one in memory at a time.
@@ -49,6 +54,7 @@ struct ExportFormat {
   bool (*sequence)(const ExportedSequence&,
                    const std::filesystem::path& file);        // or that of all; false: stopped
   std::vector<std::string> (*remarks)(const ExportedScene&);  // what of the look it leaves out, or null
+  bool takes_colors = false;                                  // of vertices, as ExportedScene has them
 };
 
 /// Throws Error(wrong_input) that lists the formats for a name that is none.

@@ -122,6 +122,7 @@ bool write_gltf(const ExportedSequence& sequence, const std::filesystem::path& f
       out.write(bytes_of(block.normals));
     }
   });
+  for (const MovingMesh& mesh : meshes) out.write(bytes_of(mesh.colors()));
   if (all) out.finish();
   return all;
 }

@@ -55,13 +55,14 @@ public:
   Json build(const std::vector<std::vector<Extent>>& extents) {
     add_views();
     Json nodes = Json::array(), materials = Json::array(), meshes = Json::array();
-    std::uint64_t index_at = 0, frame_at = 0;
+    std::uint64_t index_at = 0, frame_at = 0, color_at = 0;
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
       materials.push_back(gltf_material(meshes_[i], extents[i][0]));
-      meshes.push_back(mesh_json(i, extents[i], index_at, frame_at));
+      meshes.push_back(mesh_json(i, extents[i], {index_at, frame_at, color_at}));
       nodes.push_back({{"name", meshes_[i].name()}, {"mesh", i}});
       index_at += meshes_[i].triangles().size() * sizeof(render::Triangle);
       frame_at += meshes_[i].vertex_count() * kVec3 * (meshes_[i].has_normals() ? 2 : 1);
+      color_at += meshes_[i].colors().size() * kVec3;
     }
     const SceneDesc& desc = sequence_.scene.desc;
     nodes.push_back(camera_node(pose_of(sequence_.scene.camera)));
@@ -84,7 +85,12 @@ public:
   }
 
 private:
-  /// View 0 holds the triangles, 1 + k those of frame k, the last one the animation.
+  /// Where the data of a body begin in their views. [bytes]
+  struct Places {
+    std::uint64_t triangles, frame, colors;
+  };
+
+  /// View 0 holds the triangles, 1 + k those of frame k, then come the animation and the colours.
   void add_views() {
     views_.push_back(
         {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", layout_.index_bytes()}, {"target", kIndexData}});
@@ -98,6 +104,12 @@ private:
     if (layout_.frames() > 1)
       views_.push_back(
           {{"buffer", 0}, {"byteOffset", layout_.index_bytes()}, {"byteLength", layout_.animation_bytes()}});
+    if (layout_.color_bytes() > 0)
+      views_.push_back({{"buffer", 0},
+                        {"byteOffset", layout_.colors_at()},
+                        {"byteLength", layout_.color_bytes()},
+                        {"byteStride", kVec3},
+                        {"target", kVertexData}});
   }
 
   std::size_t add(Json accessor) {
@@ -122,15 +134,17 @@ private:
     return attributes;
   }
 
-  Json mesh_json(std::size_t body, const std::vector<Extent>& extents, std::uint64_t index_at,
-                 std::uint64_t frame_at) {
+  Json mesh_json(std::size_t body, const std::vector<Extent>& extents, const Places& at) {
     const MovingMesh& mesh = meshes_[body];
-    Json primitive = {{"attributes", attributes(mesh, extents[0], 0, frame_at)}};
-    primitive["indices"] = add(accessor(0, index_at, kUint, 3 * mesh.triangles().size(), "SCALAR"));
+    Json primitive = {{"attributes", attributes(mesh, extents[0], 0, at.frame)}};
+    if (!mesh.colors().empty())
+      primitive["attributes"]["COLOR_0"] = add(accessor(layout_.frames() > 1 ? 2 + layout_.frames() : 2,
+                                                        at.colors, kFloat, mesh.vertex_count(), "VEC3"));
+    primitive["indices"] = add(accessor(0, at.triangles, kUint, 3 * mesh.triangles().size(), "SCALAR"));
     primitive["material"] = body;
     Json names = Json::array();
     for (int k = 1; k < layout_.frames(); ++k) {
-      primitive["targets"].push_back(attributes(mesh, extents[static_cast<std::size_t>(k)], k, frame_at));
+      primitive["targets"].push_back(attributes(mesh, extents[static_cast<std::size_t>(k)], k, at.frame));
       names.push_back(fmt::format("frame_{:04}", sequence_.frames.first + k));
     }
     Json json = {{"name", mesh.name()}, {"primitives", {primitive}}};
@@ -182,6 +196,7 @@ GltfLayout::GltfLayout(const std::vector<MovingMesh>& meshes, int frames, bool c
   for (const MovingMesh& mesh : meshes) {
     index_bytes_ += mesh.triangles().size() * sizeof(render::Triangle);
     frame_bytes_ += mesh.vertex_count() * kVec3 * (mesh.has_normals() ? 2 : 1);
+    color_bytes_ += mesh.colors().size() * kVec3;
   }
   if (frames == 1) return;
   const auto n = static_cast<std::uint64_t>(frames);

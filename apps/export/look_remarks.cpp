@@ -16,7 +16,8 @@ std::vector<std::string> remarks(const ExportedScene& scene, const char* format,
     const BodyDesc& body = scene.desc.body[i];
     std::vector<std::string> what = lost(body.look);
     if (has_cloudy_inside(body.look)) what.emplace_back("subsurface (an opaque base of subsurface_color)");
-    if (body.shown.field != "none") what.push_back("the colours of " + body.shown.field);
+    if (body.shown.field != "none" && scene.colors.empty())
+      what.push_back("the colours of " + body.shown.field);
     if (!what.empty())
       lines.push_back(fmt::format("{}: {} of body '{}' {} left out", format, fmt::join(what, ", "),
                                   scene.model.mesh().bodies[i].name, what.size() == 1 ? "is" : "are"));
@@ -27,7 +28,15 @@ std::vector<std::string> remarks(const ExportedScene& scene, const char* format,
 }  // namespace
 
 std::vector<std::string> gltf_remarks(const ExportedScene& scene) {
-  return remarks(scene, "gltf", [](const render::Material&) { return std::vector<std::string>(); });
+  std::vector<std::string> lines =
+      remarks(scene, "gltf", [](const render::Material&) { return std::vector<std::string>(); });
+  for (std::size_t i = 0; i < scene.colors.size(); ++i) {
+    if (scene.colors[i].empty()) continue;
+    lines.push_back(
+        fmt::format("gltf: body '{}' keeps the colours of {} of the first frame; glTF has none that move",
+                    scene.model.mesh().bodies[i].name, scene.desc.body[i].shown.field));
+  }
+  return lines;
 }
 
 std::vector<std::string> usd_remarks(const ExportedScene& scene) {

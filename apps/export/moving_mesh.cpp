@@ -6,8 +6,10 @@
 
 namespace lagomorph::apps {
 
-MovingMesh::MovingMesh(const sim::Surface& surface, const BodyDesc& body, std::string name)
-    : surface_(&surface), name_(std::move(name)), look_(body.look) {
+MovingMesh::MovingMesh(const sim::Surface& surface, const BodyDesc& body, std::string name,
+                       std::vector<render::Color> colors)
+    : surface_(&surface), name_(std::move(name)), look_(body.look), colors_(std::move(colors)) {
+  if (!colors_.empty()) look_.base_color = render::Color::Ones();
   for (const sim::Triangle& t : surface.triangles()) triangles_.push_back(to_render(t));
   if (body.surface.smooth) normals_.emplace(triangles_, vertex_count());
 }
@@ -25,7 +27,8 @@ std::vector<render::Vec3> MovingMesh::normals(const std::vector<render::Vec3>& p
 std::vector<MovingMesh> moving_meshes(const ExportedScene& scene) {
   std::vector<MovingMesh> meshes;
   for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
-    meshes.emplace_back(scene.surfaces[i], scene.desc.body[i], scene.model.mesh().bodies[i].name);
+    meshes.emplace_back(scene.surfaces[i], scene.desc.body[i], scene.model.mesh().bodies[i].name,
+                        scene.colors.empty() ? std::vector<render::Color>() : scene.colors[i]);
   return meshes;
 }
 

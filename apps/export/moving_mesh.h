@@ -15,12 +15,14 @@ namespace lagomorph::apps {
 /// What tools that animate take of a body: single precision, smooth normals where the body is drawn so.
 class MovingMesh {
 public:
-  MovingMesh(const sim::Surface&, const BodyDesc&, std::string name);
+  /// `colors` of its vertices take the place of the base colour.
+  MovingMesh(const sim::Surface&, const BodyDesc&, std::string name, std::vector<render::Color> colors = {});
 
   const std::string& name() const { return name_; }
   const render::Material& look() const { return look_; }
   const std::vector<render::Triangle>& triangles() const { return triangles_; }
   std::size_t vertex_count() const { return static_cast<std::size_t>(surface_->vertex_count()); }
+  const std::vector<render::Color>& colors() const { return colors_; }
   bool has_normals() const { return normals_.has_value(); }
   /// [m]
   std::vector<render::Vec3> positions(const sim::VecX& q) const;
@@ -32,6 +34,7 @@ private:
   const sim::Surface* surface_;
   std::string name_;
   render::Material look_;
+  std::vector<render::Color> colors_;
   std::vector<render::Triangle> triangles_;
   std::optional<render::VertexNormals> normals_;
 };

@@ -9,6 +9,7 @@
 
 #include "apps/cli/print.h"
 #include "apps/file_io.h"
+#include "apps/frame_names.h"
 #include "apps/hash.h"
 #include "apps/pipeline/stop.h"
 #include "apps/progress/progress.h"
@@ -50,30 +51,15 @@ std::vector<int> frames_of(const Options& options, const RunPaths& run, int fram
 
 }  // namespace
 
-std::string picture_name(const std::string& pattern, int frame) {
-  const std::size_t last = pattern.find_last_of('#');
-  if (last == std::string::npos || !pattern.ends_with(".png") || pattern.find('/') != std::string::npos ||
-      pattern.front() == '.') {
-    wrong_input(fmt::format(
-        "--pattern {}: must be a plain name that ends in .png, with # for the digits of the frame, "
-        "as shot.####.png",
-        pattern));
-  }
-  const std::size_t before = pattern.find_last_not_of('#', last);
-  const std::size_t first = before == std::string::npos ? 0 : before + 1;
-  return pattern.substr(0, first) + fmt::format("{:0{}}", frame, last - first + 1) + pattern.substr(last + 1);
-}
-
 ExitStatus export_pictures(const Options& options) {
   if (!options.fields.empty()) wrong_input("--fields: .png holds no fields; vtu, ply and usda do");
   Progress progress(options.quiet || options.json);
-  const RunPaths run(options.inputs.at(0));
+  const RunPaths run = paths_of_run(options.inputs.at(0));
   std::error_code error;
   if (!fs::is_directory(run.root(), error)) wrong_input(run.root().string() + ": there is no such run");
   if (!read_run_info(run)) wrong_input(run.root().string() + ": is no run: it has no run.json");
   const SceneDesc scene = load_scene(run.scene(), {});
-  const std::string pattern = options.pattern.value_or(scene.name + ".####.png");
-  picture_name(pattern, 0);  // or told before all else
+  const FrameNames names(options.pattern.value_or(scene.name + ".####.png"));
   const std::vector<int> frames = frames_of(options, run, scene.time.frames);
   const fs::path out = options.out.value_or(run.root() / "export");
   make_folder(out);
@@ -82,7 +68,7 @@ ExitStatus export_pictures(const Options& options) {
   std::vector<std::string> files;
   for (const int frame : frames) {
     if (stop_asked()) return stop_status();
-    files.push_back(picture_name(pattern, frame));
+    files.push_back(names.file(frame, ".png"));
     write_file(out / files.back(), read_file(run.picture(frame)));
     progress.frame_done();
   }
@@ -95,8 +81,8 @@ ExitStatus export_pictures(const Options& options) {
                                          {"files", files}};
     print(json.dump() + "\n");
   } else if (!options.quiet) {
-    print(fmt::format("{} picture{} as {} in {}\n", files.size(), files.size() == 1 ? "" : "s", pattern,
-                      out.string()));
+    print(fmt::format("{} picture{} as {} in {}\n", files.size(), files.size() == 1 ? "" : "s",
+                      names.pattern(), out.string()));
   }
   return ExitStatus::done;
 }

@@ -100,7 +100,7 @@ void add_energy(Report& report, const std::map<int, FrameRecord>& records) {
 }  // namespace
 
 Report run_info(const fs::path& folder) {
-  const RunPaths paths(folder);
+  const RunPaths paths = paths_of_run(folder);
   const std::optional<RunInfo> info = read_run_info(paths);
   if (!info) wrong_input(fmt::format("{}: is no run: it has no run.json", folder.string()));
   int frames = 0;

@@ -12,6 +12,7 @@
 #include "apps/overlay/overlay.h"
 #include "apps/overlay/shapes.h"
 #include "apps/overlay/stroke_font.h"
+#include "apps/overlay/swatches.h"
 #include "apps/overlay/ticks.h"
 
 namespace lagomorph::apps {
@@ -24,9 +25,9 @@ struct Prefix {
 
 /// That of a value's thousands; none beyond them, for pure numbers, and of units that have one.
 Prefix prefix_of(double size, const std::string& unit) {
-  constexpr std::array<Prefix, 7> prefixes = {
-      {{"G", 1e9}, {"M", 1e6}, {"k", 1e3}, {"", 1.0}, {"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}}};
-  if (unit.empty() || unit.starts_with("k") || size >= 1e12) return {"", 1.0};
+  constexpr std::array<Prefix, 8> prefixes = {
+      {{"T", 1e12}, {"G", 1e9}, {"M", 1e6}, {"k", 1e3}, {"", 1.0}, {"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}}};
+  if (unit.empty() || unit.starts_with("k") || size >= 1e15) return {"", 1.0};
   for (const Prefix& prefix : prefixes)
     if (size >= prefix.factor) return prefix;
   return {"", 1.0};
@@ -193,7 +194,21 @@ void draw_colors(render::Picture& picture, const ColorBar& bar, const Rectangle&
   if (bar.below) draw_tip(picture, colors, colors.bottom, colors.bottom + tip, color_at(*bar.map, 0.0));
 }
 
+/// Of a bar of categories, where all have room.
+std::optional<Swatches> swatches_of(int width, int height, const ColorBar& bar) {
+  if (bar.categories.empty()) return std::nullopt;
+  std::vector<Swatch> rows;
+  for (const Category& c : bar.categories) {
+    const double along = std::clamp((c.value - bar.low) / (bar.high - bar.low), 0.0, 1.0);
+    rows.push_back({c.name, color_at(*bar.map, along)});
+  }
+  Swatches swatches(width, height, bar.title, std::move(rows));
+  return swatches.fits() ? std::optional(std::move(swatches)) : std::nullopt;
+}
+
 void draw_bar(render::Picture& picture, const ColorBar& bar, const Rectangle& plate) {
+  if (const std::optional<Swatches> swatches = swatches_of(picture.width, picture.height, bar))
+    return swatches->draw(picture, plate);
   const BarLayout l = layout_of(picture.width, picture.height, bar);
   draw_plate(picture, plate);
   const TextStyle style{.height = l.text, .color = plate_ink};
@@ -254,8 +269,11 @@ std::vector<Rectangle> place_color_bars(OverlayLayout& layout, const std::vector
   std::vector<Rectangle> plates;
   for (const ColorBar& bar : bars) {
     const BarLayout l = layout_of(layout.width(), layout.height(), bar);
-    if (l.width() > widest_labels * layout.width()) break;
-    const std::optional<Rectangle> plate = layout.take(l.width(), l.height(), "right");
+    const std::optional<Swatches> swatches = swatches_of(layout.width(), layout.height(), bar);
+    if (!swatches && l.width() > widest_labels * layout.width()) break;
+    const std::optional<Rectangle> plate = swatches
+                                               ? layout.take(swatches->width(), swatches->height(), "right")
+                                               : layout.take(l.width(), l.height(), "right");
     if (!plate) break;
     plates.push_back(*plate);
   }

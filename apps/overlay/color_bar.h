@@ -10,6 +10,12 @@
 
 namespace lagomorph::apps {
 
+/// A value that stands for something with a name.
+struct Category {
+  std::string name;
+  double value;
+};
+
 /// What colours of a field mean.
 struct ColorBar {
   std::string title;  // ASCII
@@ -18,6 +24,9 @@ struct ColorBar {
   double low = 0.0, high = 1.0;       // shown in the map's first and last colour; low < high
   bool given = false;                 // the range, so that values may lie beyond it: room is kept to tell it
   bool below = false, above = false;  // whether some drawn ones do; only of a given range
+  /// All values that there are, where none lie between: their colours and names take the bar's place where
+  /// all have room.
+  std::vector<Category> categories = {};
 };
 
 struct BarLabel {

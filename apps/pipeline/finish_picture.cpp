@@ -42,8 +42,8 @@ std::vector<ColorBar> bars_of(const SurfaceFields& fields, const Overlays& overl
 
 render::Picture finish_picture(const RenderedFrame& frame, const SceneDesc& scene,
                                const SurfaceFields& fields, const Overlays& overlays, OverlayLayout layout) {
-  render::Picture picture =
-      render::tone_map(frame.image, scene.render.tone_curve, scene.render.exposure, scene.render.transparent);
+  render::Picture picture = render::tone_map(frame.image, scene.render.tone_curve, scene.render.exposure,
+                                             scene.render.transparent, scene.render.dither);
   const std::vector<ColorBar> bars = with_those_of(overlays, fields.bars(frame.state.q));
   const std::vector<Rectangle> bar_plates = place_color_bars(layout, bars);
   const std::string caption =

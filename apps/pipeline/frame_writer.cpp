@@ -30,15 +30,17 @@ std::string encode_npy(const render::Channel& channel) {
 /// One of channel_files().
 std::string encode_file(const std::string& file, const render::Image& image,
                         const render::RenderSettings& settings) {
+  const render::PixelRegion drawn = settings.drawn();
+  const render::PartOfPicture part{drawn.x0, drawn.y0, settings.width, settings.height};
   if (file == multilayer_file)
-    return render::encode_multilayer_exr(image, settings.channels, settings.transparent);
+    return render::encode_multilayer_exr(image, settings.channels, settings.transparent, part);
   const std::string name(channel_of(file));
   const render::Channel* channel = image.find(name);
   if (channel == nullptr)
     throw Error(ExitStatus::machine, "the renderer '" + settings.backend + "' gave no channel " + name);
   const std::string_view extension = channel_extension(file);
   if (extension == png_extension) return render::encode_channel_png(*channel, settings.png_compression);
-  return extension == exr_extension ? render::encode_exr(*channel) : encode_npy(*channel);
+  return extension == exr_extension ? render::encode_exr(*channel, part) : encode_npy(*channel);
 }
 
 }  // namespace

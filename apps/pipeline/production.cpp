@@ -67,6 +67,7 @@ Json mesh_sizes(const sim::Model& model, const std::vector<sim::Surface>& surfac
 RunInfo new_info(const Production& p) {
   RunInfo info = make_run_info(self_contained(p.scene, p.paths), p.identity,
                                p.renderer ? p.renderer->description() : "");
+  info.names = p.paths.names();
   if (!p.contents.info) return info;
   const RunInfo& old = *p.contents.info;
   info.video = old.video;

@@ -59,19 +59,21 @@ Identity looking_identity(const SceneDesc& scene, const render::Renderer& render
   return same_build;
 }
 
-bool says_so_already(const RunContents& contents, const Identity& wanted) {
+bool says_so_already(const RunPaths& paths, const Identity& wanted) {
+  const RunContents contents = read_contents(paths, wanted);
   return contents.info && contents.info->identity.picture_hash() == wanted.picture_hash() &&
-         contents.other_pictures == 0;
+         contents.info->names == paths.names() && contents.other_pictures == 0;
 }
 
 /// A lock that others who draw the same run may share, or an exclusive one where RUN must be brought up to
 /// date.
-RunLock lock_for_drawing(const RunPaths& paths, const Identity& wanted) {
+RunLock lock_for_drawing(const fs::path& root, const std::optional<std::string>& pattern,
+                         const Identity& wanted) {
   constexpr double patience = 3.0;  // [s], for those who begin together
   const Stopwatch watch;
-  RunLock lock(paths.root());
+  RunLock lock(root);
   for (;;) {
-    if (lock.try_take(RunLock::Kind::shared) && says_so_already(read_contents(paths, wanted), wanted))
+    if (lock.try_take(RunLock::Kind::shared) && says_so_already(paths_of_run(root, pattern), wanted))
       return lock;
     if (lock.try_take(RunLock::Kind::exclusive)) return lock;
     if (watch.seconds() > patience) lock.take(RunLock::Kind::exclusive);
@@ -121,10 +123,11 @@ ExitStatus render_command(const Options& options) {
   const StatesOfRun states(source, info.identity, scene.time.frames);
   const FrameRange frames = frames_to_draw(options, scene, states);
 
-  const RunPaths paths(options.out.value_or(draft_folder(source.root(), options)));
+  const fs::path root = options.out.value_or(draft_folder(source.root(), options));
   std::error_code error;
   std::optional<RunLock> lock;
-  if (fs::is_directory(paths.root(), error)) lock.emplace(lock_for_drawing(paths, identity));
+  if (fs::is_directory(root, error)) lock.emplace(lock_for_drawing(root, options.pattern, identity));
+  const RunPaths paths = paths_of_run(root, options.pattern);
   RunContents contents = read_contents(paths, identity);
   if (!options.force) refuse_others(paths, contents, identity);
   std::vector<FrameJob> jobs = missing_pictures(paths, contents, states, frames);

@@ -32,10 +32,10 @@ Identity identity_of(const SceneDesc& scene, const render::Renderer* renderer, c
           there->identity.picture_build()};
 }
 
-std::optional<RunLock> lock_existing(const RunPaths& paths) {
+std::optional<RunLock> lock_existing(const fs::path& root) {
   std::error_code error;
-  if (!fs::is_directory(paths.root(), error)) return std::nullopt;
-  RunLock lock(paths.root());
+  if (!fs::is_directory(root, error)) return std::nullopt;
+  RunLock lock(root);
   lock.take(RunLock::Kind::exclusive);
   return lock;
 }
@@ -59,12 +59,13 @@ ExitStatus run_scene(const Options& options, bool draws) {
   if (options.backend) scene.render.backend = *options.backend;
   FrameRange frames = wanted_frames(options.frames, scene.time.frames);
   frames.every = options.every;
-  const RunPaths paths(options.out.value_or(draft_folder(fs::path("out") / scene.name, options)));
+  const fs::path root = options.out.value_or(draft_folder(fs::path("out") / scene.name, options));
   check_camera(scene);  // told before all else
   std::unique_ptr<render::Renderer> renderer;
   if (draws) renderer = render::make_renderer(scene.render, threads);
 
-  std::optional<RunLock> lock = lock_existing(paths);
+  std::optional<RunLock> lock = lock_existing(root);
+  const RunPaths paths = paths_of_run(root, options.pattern);
   const Identity identity = identity_of(scene, renderer.get(), paths);
   RunContents contents = read_contents(paths, identity);
   if (!options.force) refuse_others(paths, contents, identity);

@@ -112,6 +112,14 @@ std::string SurfaceFields::names_of(std::size_t scale) const {
   return names;
 }
 
+std::vector<Category> SurfaceFields::bodies_of(std::size_t scale) const {
+  std::vector<Category> bodies;
+  for (std::size_t body = 0; body < scale_of_body_.size(); ++body)
+    if (scale_of_body_[body] == scale)
+      bodies.push_back({scene_.body[body].physics.name, static_cast<double>(body)});
+  return bodies;
+}
+
 std::vector<ColorBar> SurfaceFields::bars() const {
   std::vector<ColorBar> all;
   for (std::size_t i = 0; i < scales_.size(); ++i) {
@@ -121,6 +129,9 @@ std::vector<ColorBar> SurfaceFields::bars() const {
     const std::string title =
         scales_.size() > 1 ? names_of(i) + ": " + s.field.title : std::string(s.field.title);
     all.push_back({title, s.field.unit, s.map, low, high, !s.automatic});
+    if (std::string_view(s.field.name) != "body") continue;
+    all.back().title = s.field.title;
+    all.back().categories = bodies_of(i);
   }
   return all;
 }

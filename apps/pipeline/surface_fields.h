@@ -59,6 +59,7 @@ private:
   static std::array<double, 2> range_of(const Scale&);
   /// Those of the bodies that have it.
   std::string names_of(std::size_t scale) const;
+  std::vector<Category> bodies_of(std::size_t scale) const;
   /// Calls with a body, its scale and the values on its surface.
   void for_values(const sim::VecX& q, const auto& visit) const;
 

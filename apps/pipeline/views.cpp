@@ -194,6 +194,7 @@ render::Image Views::draw(render::Renderer& renderer, render::FrameInfo frame, c
     open = shutter_cameras(view, frame.frame, q, *motion);
     frame.shutter_cameras = open;
   }
+  frame.leaves_out_ground = !view.scene.ground.enabled;
   return renderer.render(camera(view, frame.frame, q), frame);
 }
 

@@ -64,10 +64,11 @@ void Progress::note(const std::string& line) {
   put(one_line(line) + "\n");
 }
 
-void Progress::begin(int frames) {
+void Progress::begin(int frames, int passes) {
   const std::lock_guard lock(mutex_);
   frames_ = frames;
-  done_ = told_ = 0;
+  passes_ = passes;
+  steps_done_ = told_ = 0;
   begin_ = last_ = Clock::now();
   if (style_ == Style::bar && frames > 0) draw_bar(0.0);
 }
@@ -75,15 +76,15 @@ void Progress::begin(int frames) {
 void Progress::frame_done() {
   if (style_ == Style::silent) return;
   const std::lock_guard lock(mutex_);
-  ++done_;
+  if (++steps_done_ % passes_ != 0) return;
   const Clock::time_point now = Clock::now();
   const double seconds = Seconds(now - begin_).count();
   const double silence = Seconds(now - last_).count();
   if (style_ == Style::bar) {
-    if (silence < bar_interval && done_ < frames_) return;
+    if (silence < bar_interval && done() < frames_) return;
     draw_bar(seconds);
   } else {
-    const bool tenth = 10L * done_ / frames_ > 10L * told_ / frames_;
+    const bool tenth = 10L * done() / frames_ > 10L * told_ / frames_;
     if (!tenth && silence < line_interval) return;
     print_line(seconds);
   }
@@ -96,10 +97,10 @@ void Progress::end() {
 }
 
 void Progress::draw_bar(double seconds) {
-  const std::string text = fmt::format(" {:>{}}/{}  {}", done_, std::to_string(frames_).size(), frames_,
-                                       rate_text(done_, frames_, seconds));
+  const std::string text = fmt::format(" {:>{}}/{}  {}", done(), std::to_string(frames_).size(), frames_,
+                                       rate_text(done(), frames_, seconds));
   const int room = std::clamp(terminal_width() - static_cast<int>(text.size()) - 3, 0, 40);
-  const int filled = frames_ > 0 ? room * done_ / frames_ : 0;
+  const int filled = frames_ > 0 ? room * done() / frames_ : 0;
   const std::string bar = room > 4 ? fmt::format("[{}{}]", std::string(static_cast<std::size_t>(filled), '#'),
                                                  std::string(static_cast<std::size_t>(room - filled), ' '))
                                    : "";
@@ -114,8 +115,8 @@ void Progress::clear_bar() {
 }
 
 void Progress::print_line(double seconds) {
-  put(fmt::format("frame {} of {}, {}\n", done_, frames_, rate_text(done_, frames_, seconds)));
-  told_ = done_;
+  put(fmt::format("frame {} of {}, {}\n", done(), frames_, rate_text(done(), frames_, seconds)));
+  told_ = done();
 }
 
 }  // namespace lagomorph::apps

@@ -17,8 +17,9 @@ public:
 
   /// One line.
   void note(const std::string& line);
-  /// So many frames are to come.
-  void begin(int frames);
+  /// So many frames are to come, each in so many passes over all of them.
+  void begin(int frames, int passes = 1);
+  /// In one of the passes.
   void frame_done();
   /// The bar goes.
   void end();
@@ -31,10 +32,14 @@ private:
   void clear_bar();
   void print_line(double seconds);
 
+  /// Frames that all passes so far would have made whole.
+  int done() const { return steps_done_ / passes_; }
+
   const Style style_;
   std::mutex mutex_;
-  int frames_ = 0, done_ = 0;
-  int told_ = 0;  // frames done when the last line was printed
+  int frames_ = 0, passes_ = 1;
+  int steps_done_ = 0;  // frames in passes
+  int told_ = 0;        // done() when the last line was printed
   bool bar_is_there_ = false;
   Clock::time_point begin_, last_;
 };

@@ -28,10 +28,11 @@ void refuse_foreign_folder(const RunPaths& paths) {
   }
 }
 
-void remove_frames(const fs::path& folder, std::string_view extension, const auto& keep) {
+void remove_frames(const fs::path& folder, const FrameNames& names, std::string_view extension,
+                   const auto& keep) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    const std::optional<int> frame = frame_of(entry.path(), extension);
+    const std::optional<int> frame = names.frame_of(entry.path(), extension);
     if (frame && !keep(*frame)) remove_file(entry.path());
   }
 }
@@ -43,6 +44,20 @@ std::vector<fs::path> channel_folders(const RunPaths& paths) {
     if (entry.is_directory(error)) folders.push_back(entry.path());
   }
   return folders;
+}
+
+/// Pictures of these names and their channels, but for frames to `keep` and channels that their records have.
+void remove_pictures(const RunPaths& paths, const std::map<int, FrameRecord>& records, const auto& keep) {
+  remove_frames(paths.pictures(), paths.names(), ".png", keep);
+  for (const fs::path& folder : channel_folders(paths)) {
+    const std::string channel = folder.filename().string();
+    for (const std::string& file : {channel, channel + exr_extension, channel + png_extension}) {
+      remove_frames(folder, paths.names(), channel_extension(file), [&](int frame) {
+        return keep(frame) && records.at(frame).picture->channels.contains(file);
+      });
+    }
+    remove_leftovers(folder);
+  }
 }
 
 bool same_parts(const FrameRecord& a, const FrameRecord& b) {
@@ -72,8 +87,10 @@ RunContents read_contents(const RunPaths& paths, const Identity& wanted) {
   contents.info = read_run_info(paths);
   if (!contents.info && !fs::exists(paths.records(), error)) refuse_foreign_folder(paths);
   contents.on_disk = read_records(paths);
+  const bool other_names = contents.info && contents.info->names != paths.names();
   for (const auto& [frame, record] : contents.on_disk) {
     FrameRecord parts = matching_parts(record, wanted);
+    if (other_names) parts.picture.reset();
     if (record.state && !parts.state) ++contents.other_states;
     if (record.picture && !parts.picture) ++contents.other_pictures;
     if (parts.state) contents.matching.emplace(frame, std::move(parts));
@@ -85,6 +102,10 @@ void refuse_others(const RunPaths& paths, const RunContents& contents, const Ide
   if (contents.other_states + contents.other_pictures == 0) return;
   std::vector<std::string> keys = {"its run.json is missing"};
   if (contents.info) keys = differences(contents.info->identity, wanted, contents.other_pictures > 0);
+  if (contents.info && contents.info->names != paths.names()) {
+    keys.push_back(
+        fmt::format("--pattern {} -> {}", contents.info->names.pattern(), paths.names().pattern()));
+  }
   if (keys.empty()) return;
   constexpr std::size_t most = 8;
   std::string text;
@@ -108,21 +129,15 @@ void remove_unmatched(const RunPaths& paths, const RunContents& contents) {
     const auto record = matching.find(frame);
     return record != matching.end() && record->second.picture.has_value();
   };
-  remove_frames(paths.records(), ".json", has_state);  // records first: a file without one is made again
+  const FrameNames usual;
+  remove_frames(paths.records(), usual, ".json", has_state);  // first: a file without one is made again
   for (const auto& [frame, record] : matching) {
     if (!same_parts(record, contents.on_disk.at(frame))) write_record(paths, record);
   }
-  remove_frames(paths.states(), ".npy", has_state);
-  remove_frames(paths.pictures(), ".png", has_picture);
-  for (const fs::path& folder : channel_folders(paths)) {
-    const std::string channel = folder.filename().string();
-    for (const std::string& file : {channel, channel + exr_extension, channel + png_extension}) {
-      remove_frames(folder, paths.channel(file, 0).extension().string(), [&](int frame) {
-        return has_picture(frame) && matching.at(frame).picture->channels.contains(file);
-      });
-    }
-    remove_leftovers(folder);
-  }
+  remove_frames(paths.states(), usual, ".npy", has_state);
+  if (contents.info && contents.info->names != paths.names())
+    remove_pictures(RunPaths(paths.root(), contents.info->names), matching, [](int) { return false; });
+  remove_pictures(paths, matching, has_picture);
   for (const fs::path& folder :
        {paths.root(), paths.states(), paths.pictures(), paths.records(), paths.inputs()}) {
     remove_leftovers(folder);

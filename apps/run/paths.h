@@ -4,15 +4,22 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+
+#include "apps/frame_names.h"
 
 namespace lagomorph::apps {
 
 /// Where everything of a run stands.
 class RunPaths {
 public:
-  explicit RunPaths(std::filesystem::path root) : root_(std::move(root)) {}
+  /// `names` are those of pictures and their channels; states and records have the usual ones. Of a run that
+  /// is there, see paths_of_run().
+  explicit RunPaths(std::filesystem::path root, FrameNames names = {})
+      : root_(std::move(root)), names_(std::move(names)) {}
 
   const std::filesystem::path& root() const { return root_; }
+  const FrameNames& names() const { return names_; }
   std::filesystem::path run_json() const { return root_ / "run.json"; }
   std::filesystem::path scene() const { return root_ / "scene.toml"; }
   std::filesystem::path energy() const { return root_ / "energy.csv"; }
@@ -36,6 +43,7 @@ public:
 
 private:
   std::filesystem::path root_;
+  FrameNames names_;
 };
 
 /// "frame_0000.npy"; numbers grow past 9999.

@@ -73,13 +73,20 @@ std::optional<RunInfo> read_run_info(const RunPaths& paths) {
                     video.at("last").get<int>(), video.at("source").get<std::string>(),
                     video.at("sha256").get<std::string>()};
     }
-    for (const char* made_again : {"hashes", "keys", "frames", "video"}) json.erase(made_again);
+    if (json.contains("pattern")) info.names = FrameNames(json["pattern"].get<std::string>());
+    for (const char* made_again : {"hashes", "keys", "frames", "video", "pattern"}) json.erase(made_again);
     info.about = std::move(json);
     return info;
   } catch (const Json::exception& e) {
     throw Error(ExitStatus::wrong_input, file.string() + ": is not a run's run.json (" + e.what() +
                                              "); remove it, or give another folder with --out");
   }
+}
+
+RunPaths paths_of_run(const fs::path& root, const std::optional<std::string>& pattern) {
+  if (pattern) return RunPaths(root, FrameNames(*pattern));
+  const std::optional<RunInfo> info = read_run_info(RunPaths(root));
+  return RunPaths(root, info ? info->names : FrameNames());
 }
 
 std::string run_json_text(const RunInfo& info, const std::map<int, FrameRecord>& frames) {
@@ -91,6 +98,7 @@ std::string run_json_text(const RunInfo& info, const std::map<int, FrameRecord>&
                   {"picture", keys_json(identity.picture())},
                   {"simulation_build", keys_json(identity.simulation_build())},
                   {"picture_build", keys_json(identity.picture_build())}};
+  if (info.names != FrameNames()) json["pattern"] = info.names.pattern();
   if (info.video) json["video"] = video_json(*info.video);
   json["frames"] = Json::array();
   for (const auto& [frame, record] : frames) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/frame_names.h"
 #include "apps/run/identity.h"
 #include "apps/run/paths.h"
 #include "apps/run/record.h"
@@ -29,6 +31,7 @@ struct RunInfo {
   /// What else is told, in the order it is written: program, scene, mesh sizes, dependencies, machine.
   nlohmann::ordered_json about = nlohmann::ordered_json::object();
   std::optional<VideoRecord> video;
+  FrameNames names;  // of the pictures
 };
 
 /// Everything of run.json that the scene and this program say; mesh sizes are added where a model is built.
@@ -36,6 +39,10 @@ RunInfo make_run_info(const SceneDesc&, const Identity&, const std::string& rend
 
 /// nullopt when there is none. Throws Error(wrong_input) when it is not what this program writes.
 std::optional<RunInfo> read_run_info(const RunPaths&);
+
+/// Where the files of a run are: its pictures by the pattern that is given, or that its run.json tells, or as
+/// usual. Throws as read_run_info() does.
+RunPaths paths_of_run(const std::filesystem::path& root, const std::optional<std::string>& pattern = {});
 
 /// run.json's text with these frames.
 std::string run_json_text(const RunInfo&, const std::map<int, FrameRecord>& frames);

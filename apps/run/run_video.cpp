@@ -65,7 +65,8 @@ std::optional<VideoUpdate> update_video(const RunPaths& paths, const SceneDesc& 
                paths.video(scene.name, video_extension(codec)),
                codec,
                frames.every,
-               under_transparent(scene)};
+               under_transparent(scene),
+               paths.names()};
   for (int frame = job.first; frame <= job.last; frame += job.every) {
     if (has_picture(records, frame)) continue;
     throw Error(ExitStatus::wrong_input, "--video: " + paths.picture(frame).string() + " is not there");

@@ -1,6 +1,7 @@
 #include "apps/scene/idle_keys.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include <fmt/format.h>
 
@@ -11,9 +12,9 @@ namespace lagomorph::apps {
 namespace {
 
 struct IdleRow {
-  std::vector<const char*> keys;  // or where their names begin, with a dot at the end
+  std::vector<std::string> keys;  // or where their names begin, with a dot at the end
   bool (*is_idle)(const SceneDesc&);
-  const char* reason;
+  std::string reason;
 };
 
 bool fits_a_box(const SceneDesc& scene) {
@@ -29,6 +30,13 @@ bool has_lens(const SceneDesc& scene) {
   return scene.camera.f_stop > 0.0F || std::any_of(keys.begin(), keys.end(), [](const CameraKey& k) {
            return k.f_stop.value_or(0.0F) > 0.0F;
          });
+}
+
+/// Whether no view of the scene has a perspective.
+bool is_orthographic(const SceneDesc& scene) {
+  for (std::size_t i = 0; i < panel_places(scene).size(); ++i)
+    if (!panel_scene(scene, i).camera.orthographic) return false;
+  return true;
 }
 
 const std::vector<IdleRow>& idle_rows() {
@@ -51,9 +59,25 @@ const std::vector<IdleRow>& idle_rows() {
       {{"camera.focus_distance", "camera.blades", "camera.blade_rotation"},
        [](const SceneDesc& s) { return s.render.backend == "path" && !has_lens(s); },
        "camera.f_stop is 0"},
+      {{"camera.f_stop", "camera.focus_distance", "camera.sensor_height", "camera.blades",
+        "camera.blade_rotation"},
+       [](const SceneDesc& s) { return has_lens(s) && is_orthographic(s); },
+       "camera.orthographic is given"},
+      {{"glyphs.pins", "glyphs.pin_color"},
+       [](const SceneDesc& s) {
+         return std::all_of(s.body.begin(), s.body.end(),
+                            [](const BodyDesc& b) { return b.physics.pin.empty(); });
+       },
+       "no body has a pin"},
       {{"layout."}, [](const SceneDesc& s) { return s.panel.empty(); }, "there is no [[panel]]"},
   };
   return rows;
+}
+
+/// Of a body whose surface has its own colour.
+IdleRow of_no_field(std::size_t body) {
+  const std::string look = fmt::format("body.{}.look.", body);
+  return {{look + "range", look + "colormap", look + "color_bar"}, nullptr, look + "field is \"none\""};
 }
 
 bool is_of(const std::string& key, const IdleRow& row) {
@@ -67,8 +91,7 @@ bool is_of(const std::string& key, const IdleRow& row) {
 std::vector<std::string> idle_keys(const SceneDesc& scene) {
   const std::vector<ResolvedKey> given = picture_keys(scene);
   std::vector<std::string> lines;
-  for (const IdleRow& row : idle_rows()) {
-    if (!row.is_idle(scene)) continue;
+  const auto tell = [&](const IdleRow& row) {
     std::string names;
     int count = 0;
     for (const ResolvedKey& key : given) {
@@ -77,7 +100,11 @@ std::vector<std::string> idle_keys(const SceneDesc& scene) {
     }
     if (count > 0)
       lines.push_back(fmt::format("{} {} no effect: {}", names, count == 1 ? "has" : "have", row.reason));
-  }
+  };
+  for (const IdleRow& row : idle_rows())
+    if (row.is_idle(scene)) tell(row);
+  for (std::size_t i = 0; i < scene.body.size(); ++i)
+    if (!shows_field(scene, i)) tell(of_no_field(i));
   return lines;
 }
 

@@ -305,6 +305,13 @@ void visit_render(render::RenderSettings& r, KeyVisitor& v) {
   v.key(
       {.name = "exposure", .unit = "stops", .meaning = "linear light times 2^exposure before the tone curve"},
       &r.exposure);
+  v.key({.name = "dither",
+         .unit = "8-bit steps",
+         .bounds = between(0, 2),
+         .meaning =
+             "pictures are rounded to 8 bits under a fine fixed pattern of this height, against bands in "
+             "smooth gradients; 1 hides them all, 0: none"},
+        &r.dither);
   v.key({.name = "png_compression", .bounds = between(0, 12), .meaning = "zlib level of the pictures"},
         &r.png_compression);
   v.key({.name = "channels",

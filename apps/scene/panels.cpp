@@ -72,6 +72,7 @@ SceneDesc panel_scene(const SceneDesc& scene, std::size_t panel) {
   if (scene.panel.empty()) return shown;
   const PanelPlace place = panel_places(scene)[panel];
   override_camera(shown.camera, scene.panel[panel]);
+  if (shown.camera.view == "bottom") shown.ground.enabled = false;
   for (BodyDesc& body : shown.body) override_field(body.shown, scene.panel[panel]);
   shown.panel.clear();
   shown.caption.text = scene.panel[panel].title;

@@ -185,9 +185,10 @@ void resolve_sky(SkyDesc& sky, const Places& places) {
   }
 }
 
-/// From below, the ground would be all that is seen.
-void resolve_ground(render::Ground& ground, const CameraDesc& camera, const Places& places) {
-  if (camera.view == "bottom" && !places.overridden("ground.enabled")) ground.enabled = false;
+/// From below, the ground would be all that is seen; of panels each leaves it out for itself.
+void resolve_ground(SceneDesc& scene, const Places& places) {
+  if (scene.camera.view == "bottom" && scene.panel.empty() && !places.overridden("ground.enabled"))
+    scene.ground.enabled = false;
 }
 
 void check_looks(const SceneDesc& scene, const Places& places) {
@@ -285,7 +286,7 @@ void resolve_scene(SceneDesc& scene, const Places& places, const std::string& st
   check_views(scene, places);
   check_looks(scene, places);
   resolve_sky(scene.sky, places);
-  resolve_ground(scene.ground, scene.camera, places);
+  resolve_ground(scene, places);
 }
 
 void check_scene_files(const SceneDesc& scene, const Places& places) {

@@ -20,10 +20,10 @@ std::string file_name(const fs::path& path) {
 }
 
 /// The pattern of the pictures for ffmpeg, to which a % in a folder's name is one of its own.
-std::string picture_pattern(const fs::path& folder) {
+std::string picture_pattern(const VideoJob& job) {
   std::string text;
-  for (const char c : file_name(folder)) text += c == '%' ? std::string("%%") : std::string(1, c);
-  return (fs::path(text) / "frame_%04d.png").string();
+  for (const char c : file_name(job.pictures)) text += c == '%' ? std::string("%%") : std::string(1, c);
+  return (fs::path(text) / (job.names.printf_format() + ".png")).string();
 }
 
 /// Pictures between which others are left out, one after the other as ffmpeg's protocol concat reads them.
@@ -31,7 +31,7 @@ std::string picture_list(const VideoJob& job) {
   std::string list;
   for (int frame = job.first; frame <= job.last; frame += job.every) {
     list += list.empty() ? "concat:file:" : "|file:";
-    list += (job.pictures / fmt::format("frame_{:04}.png", frame)).string();
+    list += (job.pictures / job.names.file(frame, ".png")).string();
   }
   return list;
 }
@@ -151,8 +151,7 @@ std::vector<std::string> ffmpeg_command(const VideoJob& job) {
   const int count = (job.last - job.first) / job.every + 1;
   const std::string rate = fmt::format("{:.17g}", job.fps / job.every);
   if (job.every == 1) {
-    add({"-framerate", rate, "-start_number", std::to_string(job.first), "-i",
-         picture_pattern(job.pictures)});
+    add({"-framerate", rate, "-start_number", std::to_string(job.first), "-i", picture_pattern(job)});
   } else {
     add({"-f", "png_pipe", "-framerate", rate, "-i", picture_list(job)});
   }

@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "apps/frame_names.h"
+
 namespace lagomorph::apps {
 
-/// Pictures frame_%04d.png first..last of a folder that become a video.
+/// Pictures first..last of a folder that become a video.
 struct VideoJob {
   std::filesystem::path pictures;
   int first = 0;
@@ -22,6 +24,7 @@ struct VideoJob {
   int every = 1;               // only every Nth of the pictures
   /// sRGB that pictures with alpha are laid over, unless the codec keeps it; none: the pictures are opaque.
   std::optional<std::array<std::uint8_t, 3>> under = {};
+  FrameNames names = {};  // of the pictures
 };
 
 /// h264 and h265 (.mp4, faststart), vp9 (.webm), prores (422 HQ, .mov), prores4444 (.mov, with alpha), and

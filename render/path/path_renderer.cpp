@@ -92,6 +92,7 @@ public:
   Image render(const Camera& camera, const FrameInfo& frame) override {
     if (!geometry_) throw SettingsError("the path tracer has no scene");
     Image image(camera.width(), camera.height());
+    geometry_->show_ground(scene_.ground.enabled && !frame.leaves_out_ground);
     arena_.execute([&] {
       geometry_->commit();
       float* statistics = wants(statistics_channel)

@@ -26,12 +26,8 @@ TimeSegment time_segment(std::size_t segments, float time) {
 }  // namespace
 
 SceneGeometry::SceneGeometry(const RenderScene& scene)
-    : disc_{scene.ground.height,
-            scene.ground.center.x(),
-            scene.ground.center.z(),
-            scene.ground.radius,
-            scene.ground.fade_start,
-            scene.ground.enabled ? static_cast<double>(scene.ground.radius) * scene.ground.radius : -1.0},
+    : disc_{scene.ground.height, scene.ground.center.x(), scene.ground.center.z(),
+            scene.ground.radius, scene.ground.fade_start, -1.0},
       segments_(scene.motion_segments) {
   meshes_.reserve(scene.meshes.size());
   for (const Mesh& m : scene.meshes) {
@@ -46,6 +42,7 @@ SceneGeometry::SceneGeometry(const RenderScene& scene)
                        {},
                        {}});
   }
+  show_ground(scene.ground.enabled);
   caster_.build(scene.meshes, segments_);
 }
 

@@ -58,6 +58,10 @@ public:
   std::optional<Color> color_at(const MeshHit&, const TriangleHit&) const;
 
   static constexpr double never = std::numeric_limits<double>::infinity();
+  /// Whether the ground is there.
+  void show_ground(bool shown) {
+    disc_.met = shown ? static_cast<double>(disc_.radius) * disc_.radius : -1.0;
+  }
   /// Distance to the ground's disc, from either side; `never` where a ray misses it.
   double meet_ground(const Ray&) const;
   /// Point of the ground's plane at a distance.

@@ -176,8 +176,8 @@ void LightMaps::set_scene(const RenderScene& scene, const LightFeatures& feature
   block.horizon = vec4(Color(scene.sky.strength * scene.sky.horizon), 0.0F);
   block.background = scene.background ? vec4(*scene.background, 1.0F) : Vec4::Zero();
   const Ground& g = scene.ground;
-  ground_ = g.enabled;
-  block.ground = Vec4(g.height, g.radius, g.fade_start, g.enabled ? 1.0F : 0.0F);
+  block.ground = Vec4(g.height, g.radius, g.fade_start, 0.0F);
+  show_ground(g.enabled, block);
   const std::vector<std::string> textures = ground_texture_names();
   const auto texture = std::find(textures.begin(), textures.end(), g.texture) - textures.begin();
   block.ground_texture = Vec4(static_cast<float>(texture), g.texture_size, g.line_width, 0.0F);
@@ -186,6 +186,11 @@ void LightMaps::set_scene(const RenderScene& scene, const LightFeatures& feature
   block.counts =
       Vec4(static_cast<float>(scene.lights.size()), 0.0F, 0.0F, static_cast<float>(ground_map_size));
   block.shadow_taps = Vec4(search_taps, static_cast<float>(settings_.shadow_samples), 0.0F, 0.0F);
+}
+
+void LightMaps::show_ground(bool shown, FrameBlock& block) {
+  ground_ = shown;
+  block.ground.w() = shown ? 1.0F : 0.0F;
 }
 
 void LightMaps::fit(const RenderScene& scene, std::span<const std::vector<Vec3>> positions,

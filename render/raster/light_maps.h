@@ -26,6 +26,8 @@ public:
   /// Lights, sky and ground of the scene (with_stand_ins()) into the frame's block, for shaders with these
   /// features.
   void set_scene(const RenderScene&, const LightFeatures&, FrameBlock&);
+  /// Whether the ground is drawn; what is fitted is to be drawn again.
+  void show_ground(bool shown, FrameBlock&);
   /// Fits the maps to new positions and says so in the frame's block.
   void fit(const RenderScene&, std::span<const std::vector<Vec3>> positions,
            std::span<const MeshBuffers> meshes, FrameBlock&);

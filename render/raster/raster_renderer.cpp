@@ -101,6 +101,7 @@ private:
   void make_programs();
   void upload_surfaces(const RenderScene&);
   Mat4 upload_frame(const Camera&, const Camera& before);
+  void show_ground(bool shown);
   void draw_full_screen() const;
   void draw_ground(const Program&) const;
   enum class Which { all, opaque, see_through };
@@ -137,6 +138,7 @@ private:
   std::vector<SurfaceTexel> surfaces_;  // of the layer at work
   LitPixels lit_;                       // likewise
   bool lights_are_stale_ = true;
+  bool has_ground_ = false;  // the scene; scene_ has it where it is drawn
 };
 
 SurfaceBlock surface_block(const Material& material, float thickness) {
@@ -154,6 +156,7 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
   context_->make_current();
   scene_ = with_stand_ins(scene);
   if (settings_.transparent) scene_.background = Color::Zero();
+  has_ground_ = scene_.ground.enabled;
   positions_.clear();
   body_ids_.clear();
   gl_->meshes.clear();
@@ -272,8 +275,17 @@ Mat4 RasterRenderer::upload_frame(const Camera& camera, const Camera& before) {
   return before.projection(range.near, range.far) * before.view();
 }
 
+void RasterRenderer::show_ground(bool shown) {
+  if (shown == scene_.ground.enabled) return;
+  scene_.ground.enabled = shown;
+  gl_->maps.show_ground(shown, block_);
+  gl_->still->forget();
+  lights_are_stale_ = true;
+}
+
 Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
   context_->make_current();
+  show_ground(has_ground_ && !frame.leaves_out_ground);
   std::optional<Targets>& targets = gl_->targets;
   if (!targets || targets->width() != camera.width() || targets->height() != camera.height() ||
       targets->colors() != gl_->has_colors) {

@@ -65,6 +65,16 @@ TEST(ChannelPng, IdsAreOneMore) {
   EXPECT_EQ(samples(channel(sample_count_channel, {64}, 1))[0], 64);
 }
 
+TEST(ChannelPng, DepthsAreMillimetres) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const char* const name : {depth_channel, denoising_depth_channel}) {
+    const std::vector<int> depths =
+        samples(channel(name, {1.2344F, 0.0001F, 65.534F, 65.536F, 1e9F, infinity, std::nanf("")}, 1));
+    const std::vector<int> wanted = {1234, 1, 65534, 65535, 65535, 0, 0};
+    for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_EQ(depths[3 * i], wanted[i]) << name << i;
+  }
+}
+
 TEST(ChannelPng, WhatDoesNotFitIsRefused) {
   try {
     encode_channel_png(channel(triangle_id_channel, {3, 65535}, 2), 1);
@@ -77,12 +87,13 @@ TEST(ChannelPng, WhatDoesNotFitIsRefused) {
   }
   for (const ChannelKind& kind : channel_kinds()) {
     const std::string name = kind.name;
-    EXPECT_EQ(fits_png(name), name == "normal" || name == "albedo" || name == "alpha" || name == "body_id" ||
+    EXPECT_EQ(fits_png(name), name == "depth" || name == "denoising_depth" || name == "normal" ||
+                                  name == "albedo" || name == "alpha" || name == "body_id" ||
                                   name == "triangle_id" || name == "sample_count" ||
                                   name == "denoising_albedo" || name == "denoising_normal")
         << name;
   }
-  EXPECT_THROW(encode_channel_png(channel(depth_channel, {1}, 1), 1), SettingsError);
+  EXPECT_THROW(encode_channel_png(channel(position_channel, {1, 2, 3}, 1), 1), SettingsError);
 }
 
 /// A picture of noise, so that rows and filters matter, comes back.

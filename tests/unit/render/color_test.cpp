@@ -1,7 +1,9 @@
 #include "render/color.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <random>
 
@@ -163,6 +165,69 @@ TEST(Color, AnyNumberOfThreadsGivesTheSameBytes) {
     one = tone_map(image, "aces", 0.0F).rgb;
   }
   EXPECT_EQ(tone_map(image, "aces", 0.0F).rgb, one);
+}
+
+/// A picture of one grey.
+Image plain_image(int side, float grey) {
+  Image image(side, side);
+  std::vector<float>& values = image.add("color", 3);
+  std::fill(values.begin(), values.end(), grey);
+  return image;
+}
+
+double mean_code(const Picture& picture) {
+  double sum = 0.0;
+  for (const std::uint8_t code : picture.rgb) sum += code;
+  return sum / static_cast<double>(picture.rgb.size());
+}
+
+/// What rounding loses, the pattern keeps in the mean of any 16 x 16 pixels.
+TEST(Color, DitheredPicturesHaveTheLightInTheMean) {
+  for (const double code : {0.3, 1.0, 17.25, 100.5, 187.9, 254.7}) {
+    const float grey = linear_from_srgb(static_cast<float>(code / 255.0));
+    const Picture picture = tone_map(plain_image(16, grey), "none", 0.0F, false, 1.0F);
+    EXPECT_NEAR(mean_code(picture), code, 0.03) << code;
+    for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
+      ASSERT_GE(picture.rgb[i], static_cast<int>(std::floor(code - 1e-4))) << code;
+      ASSERT_LE(picture.rgb[i], static_cast<int>(std::ceil(code + 1e-4))) << code;
+      ASSERT_TRUE(picture.rgb[i] == picture.rgb[i + 1] && picture.rgb[i] == picture.rgb[i + 2]) << "grey";
+    }
+  }
+}
+
+TEST(Color, DitheringIsAsStrongAsItIsToldToBe) {
+  const auto spread = [](float grey, float dither) {
+    const std::vector<std::uint8_t> rgb = tone_map(plain_image(64, grey), "none", 0.0F, false, dither).rgb;
+    const auto [low, high] = std::minmax_element(rgb.begin(), rgb.end());
+    return *high - *low;
+  };
+  const float half = linear_from_srgb(100.5F / 255.0F), whole = linear_from_srgb(100.0F / 255.0F);
+  EXPECT_EQ(spread(half, 0.0F), 0);
+  EXPECT_EQ(spread(half, 1.0F), 1);
+  EXPECT_EQ(spread(half, 2.0F), 2);
+  EXPECT_EQ(spread(whole, 0.9F), 0) << "a whole code is not moved";
+  for (const float end : {0.0F, -1.0F, 1.0F, 9.0F}) EXPECT_EQ(spread(end, 1.0F), 0) << end;
+}
+
+/// A part of a picture is dithered as the whole is, on any number of threads.
+TEST(Color, DitherIsAFunctionOfThePixel) {
+  Image image(257, 190);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> light(0.0F, 1.2F);
+  for (float& v : image.add("color", 3)) v = light(random);
+  const std::vector<std::uint8_t> all = tone_map(image, "aces", 0.0F, false, 1.0F).rgb;
+  {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(tone_map(image, "aces", 0.0F, false, 1.0F).rgb, all);
+  }
+  const std::vector<std::uint8_t> plain = tone_map(image, "aces", 0.0F).rgb;
+  EXPECT_EQ(tone_map(image, "aces", 0.0F, false, 0.0F).rgb, plain);
+  int moved = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    ASSERT_LE(std::abs(all[i] - plain[i]), 1);
+    moved += all[i] != plain[i] ? 1 : 0;
+  }
+  EXPECT_NEAR(moved / static_cast<double>(all.size()), 0.25, 0.06) << "the rest is nearer to its code";
 }
 
 TEST(Color, TransparentPicturesHaveTheColourOfWhatIsThere) {

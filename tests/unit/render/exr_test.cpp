@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -41,12 +42,15 @@ private:
 
 using Planes = std::map<std::string, std::vector<float>>;
 
-Planes read(const std::string& bytes, int width, int height) {
+Planes read(const std::string& bytes, int width, int height,
+            const std::optional<PartOfPicture>& part = std::nullopt) {
   Bytes stream(bytes);
   Imf::InputFile file(stream, 0);
   const Imf::Header& header = file.header();
-  EXPECT_EQ(header.dataWindow().max.x, width - 1);
-  EXPECT_EQ(header.dataWindow().max.y, height - 1);
+  const PartOfPicture at = part.value_or(PartOfPicture{0, 0, width, height});
+  const Imath::Box2i data({at.x, at.y}, {at.x + width - 1, at.y + height - 1});
+  EXPECT_EQ(header.dataWindow(), data);
+  EXPECT_EQ(header.displayWindow(), Imath::Box2i({0, 0}, {at.width - 1, at.height - 1}));
   EXPECT_EQ(header.compression(), Imf::ZIP_COMPRESSION);
   EXPECT_TRUE(Imf::hasChromaticities(header));
   Planes planes;
@@ -55,11 +59,11 @@ Planes read(const std::string& bytes, int width, int height) {
     EXPECT_EQ(c.channel().type, Imf::FLOAT) << c.name();
     std::vector<float>& values = planes[c.name()];
     values.resize(static_cast<std::size_t>(width * height));
-    pixels.insert(c.name(), Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()), sizeof(float),
-                                       sizeof(float) * static_cast<std::size_t>(width)));
+    pixels.insert(c.name(), Imf::Slice::Make(Imf::FLOAT, values.data(), data, sizeof(float),
+                                             sizeof(float) * static_cast<std::size_t>(width)));
   }
   file.setFrameBuffer(pixels);
-  file.readPixels(0, height - 1);
+  file.readPixels(at.y, at.y + height - 1);
   return planes;
 }
 
@@ -132,6 +136,16 @@ TEST(Exr, OneFileHoldsThePictureAndAllChannels) {
   EXPECT_EQ(names(transparent), (std::vector<std::string>{"A", "B", "G", "R"}));
   EXPECT_EQ(transparent["A"], component(image, alpha_channel, 0));
   EXPECT_EQ(transparent["G"], component(image, color_channel, 1));
+}
+
+TEST(Exr, APartStandsWhereItIsInThePicture) {
+  const Image image = image_of_all();
+  const PartOfPicture part{7, 90, 640, 360};
+  EXPECT_EQ(read(encode_exr(*image.find(depth_channel), part), width, height, part)["Z"],
+            component(image, depth_channel, 0));
+  Planes layers = read(encode_multilayer_exr(image, channel_names(), true, part), width, height, part);
+  EXPECT_EQ(layers["normal.Y"], component(image, normal_channel, 1));
+  EXPECT_EQ(layers["A"], component(image, alpha_channel, 0));
 }
 
 TEST(Exr, TheSameValuesGiveTheSameBytes) {

@@ -23,10 +23,10 @@ std::string error_of(const std::vector<std::string>& arguments) {
 }
 
 TEST(CommandLine, TakesEveryOption) {
-  const CommandLine line =
-      parse({"run",     "a.toml",    "-o",      "out/a",     "--set",  "time.fps=24", "--frames",
-             "3..7",    "--backend", "path",    "--threads", "2",      "--video",     "--force",
-             "--quiet", "--json",    "--every", "4",         "--half", "--region",    "1,2,30,40"});
+  const CommandLine line = parse(
+      {"run",       "a.toml", "-o",        "out/a",    "--set",     "time.fps=24", "--frames",   "3..7",
+       "--backend", "path",   "--threads", "2",        "--video",   "--force",     "--quiet",    "--json",
+       "--every",   "4",      "--half",    "--region", "1,2,30,40", "--pattern",   "shot.##.png"});
   EXPECT_EQ(line.text, "");
   const Options& o = line.options;
   EXPECT_EQ(o.command, "run");
@@ -39,6 +39,7 @@ TEST(CommandLine, TakesEveryOption) {
   EXPECT_EQ(o.every, 4);
   EXPECT_TRUE(o.half);
   EXPECT_EQ(o.region, (std::vector<int>{1, 2, 30, 40}));
+  EXPECT_EQ(o.pattern, "shot.##.png");
   EXPECT_EQ(o.backend, "path");
   EXPECT_EQ(o.threads, 2);
   EXPECT_TRUE(o.video && o.force && o.quiet && o.json);
@@ -128,7 +129,8 @@ TEST(CommandLine, TellsWhatIsWrong) {
       {{"run", "a", "--thread", "2"}, "unknown option '--thread' of run; did you mean '--threads'?"},
       {{"run", "a", "-x"},
        "unknown option '-x' of run; known are --help, --version, --out, --set, --frames, --every, --half, "
-       "--region, --backend, --threads, --video, --codec, --static, --log-newton, --profile, --force, "
+       "--region, --pattern, --backend, --threads, --video, --codec, --static, --log-newton, --profile, "
+       "--force, "
        "--quiet, --json"},
       {{"simulate", "a", "--video"}, "'--video' is no option of simulate, only of: run, render"},
       {{"run", "a", "--mend=b"}, "'--mend' is no option of run, only of: info"},
@@ -141,6 +143,11 @@ TEST(CommandLine, TellsWhatIsWrong) {
        "--region 0,0,9: must be X0,Y0,X1,Y1 in pixels from the top left corner, X0 < X1, Y0 < Y1"},
       {{"run", "a", "--region", "9,0,9,4"},
        "--region 9,0,9,4: must be X0,Y0,X1,Y1 in pixels from the top left corner, X0 < X1, Y0 < Y1"},
+      {{"render", "a", "--pattern", "shot.png"},
+       "--pattern shot.png: must be a plain name that ends in .png, with # for the digits of the frame, as "
+       "shot.####.png"},
+      {{"simulate", "a", "--pattern", "#.png"},
+       "'--pattern' is no option of simulate, only of: run, render, export"},
       {{"simulate", "a", "--half"}, "'--half' is no option of simulate, only of: run, render"},
       {{"run", "a", "--set", "time.fps"}, "--set time.fps: must be key.path=VALUE, as in --set time.fps=24"},
       {{"run", "a", "--backend", "vulkan"}, "--backend vulkan: unknown; known are raster, path"},

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "apps/export/usd.h"
+#include "render/colormap.h"
 #include "sim/mesh_io.h"
 #include "tests/unit/apps/export/glb.h"
 #include "tests/unit/apps/pipeline/run_fixture.h"
@@ -50,6 +51,14 @@ template <class T>
 void expect_near(const std::vector<T>& values, const std::vector<double>& expected) {
   ASSERT_EQ(values.size(), expected.size());
   for (std::size_t i = 0; i < values.size(); ++i) ASSERT_NEAR(values[i], expected[i], kRounding) << i;
+}
+
+TEST_F(ExportSequence, CountsFramesWhateverItsPasses) {
+  expect(0, simulate("run"));
+  for (const char* format : {"gltf", "usda"}) {
+    const Ended ended = run_program({"export", at("run").string(), "--format", format});
+    EXPECT_NE(ended.err.find("frame 4 of 4, "), std::string::npos) << ended.err;
+  }
 }
 
 TEST_F(ExportSequence, GltfMovesByMorphTargets) {
@@ -110,6 +119,38 @@ TEST_F(ExportSequence, GltfHasLookAndCamera) {
   EXPECT_NEAR(node["translation"][2].get<double>(), 2.0, 1e-7);
   EXPECT_NEAR(node["rotation"][0].get<double>(), std::sin(-std::atan2(0.1, 2.0) / 2), 1e-6);
   EXPECT_NEAR(node["rotation"][1].get<double>(), 0.0, 1e-6);
+}
+
+/// Those of the first exported frame in the range of all states, linear as the pictures'.
+TEST_F(ExportSequence, GltfHasTheColorsOfAField) {
+  const Arguments field = {"--set", "body.0.look={ field = 'displacement', base_color = [0.25, 0.5, 0.75] }"};
+  expect(0, simulate("run", field));
+  for (const char* frames : {"0..1", "3"}) {
+    exported("gltf", {"--frames", frames});
+    const Glb glb(read_all(at("run/export/bar.glb")));
+    const Json& primitive = glb.json["meshes"].at(0)["primitives"].at(0);
+    const std::vector<float> colors = glb.values<float>(primitive["attributes"]["COLOR_0"]);
+    ASSERT_EQ(colors.size(), glb.values<float>(primitive["attributes"]["POSITION"]).size());
+    EXPECT_EQ(glb.json["materials"].at(0)["pbrMetallicRoughness"]["baseColorFactor"],
+              Json::parse("[1.0, 1.0, 1.0, 1.0]"));
+    const render::Color first = render::color_of(render::find_colormap("viridis"), 0.0F),
+                        last = render::color_of(render::find_colormap("viridis"), 1.0F);
+    float from_first = 0.0F, to_last = 1.0F;
+    for (std::size_t i = 0; i < colors.size(); i += 3) {
+      const render::Color c(colors[i], colors[i + 1], colors[i + 2]);
+      from_first = std::max(from_first, (c - first).abs().maxCoeff());
+      to_last = std::min(to_last, (c - last).abs().maxCoeff());
+    }
+    if (std::string(frames) == "3") {
+      EXPECT_LT(to_last, 1e-5F) << "the furthest of all frames";
+      EXPECT_GT(from_first, 0.5F);
+    } else {
+      EXPECT_LT(from_first, 1e-6F) << "nothing has moved in frame 0";
+    }
+  }
+  expect(0, simulate("plain"));
+  expect(0, {"export", at("plain").string(), "--format", "gltf", "--quiet"});
+  EXPECT_EQ(Glb(read_all(at("plain/export/bar.glb"))).json.dump().find("COLOR_0"), std::string::npos);
 }
 
 /// Numbers that single precision holds exactly. The names are those of the extensions' specifications.
@@ -246,10 +287,10 @@ TEST_F(ExportSequence, WhatIsLeftOutOfALookIsTold) {
   expect(0, simulate("run", {"--frames", "0", "--set",
                              "body.0.look={ transmission = 0.5, subsurface = 0.5, sheen = 0.5, coat = 0.5, "
                              "opacity = 0.5, field = 'J' }"}));
-  EXPECT_NE(
-      said("gltf").find("gltf: subsurface (an opaque base of subsurface_color), the colours of J of body "
-                        "'bar' are left out\n"),
-      std::string::npos);
+  EXPECT_NE(said("gltf").find(
+                "gltf: subsurface (an opaque base of subsurface_color) of body 'bar' is left out\n"
+                "gltf: body 'bar' keeps the colours of J of the first frame; glTF has none that move\n"),
+            std::string::npos);
   EXPECT_NE(
       said("usda").find("usda: transmission (an opaque base of absorption_color), sheen, subsurface (an "
                         "opaque base of subsurface_color), the colours of J of body 'bar' are left out\n"),

@@ -43,6 +43,8 @@ std::string text(const BarLabels& labels) {
 TEST(ColorBar, HasRoundNumbersInAShortUnit) {
   EXPECT_EQ(text(labels_of(stress())), "von Mises stress (kPa): 0 20 40 60 80");
   EXPECT_EQ(text(labels_of(stress(2.1e9, 2.35e9))), "von Mises stress (GPa): 2.10 2.15 2.20 2.25 2.30 2.35");
+  EXPECT_EQ(text(labels_of(stress(0, 1e12))), "von Mises stress (TPa): 0 0.2 0.4 0.6 0.8 1.0");
+  EXPECT_EQ(text(labels_of(stress(0, 9.9e14))), "von Mises stress (TPa): 0 200 400 600 800");
   EXPECT_EQ(text(labels_of({"displacement", "m", nullptr, 0, 0.0123})), "displacement (mm): 0 2 4 6 8 10 12");
   EXPECT_EQ(text(labels_of({"displacement", "m", nullptr, 0, 1.5})),
             "displacement (m): 0 0.2 0.4 0.6 0.8 1.0 1.2 1.4");

@@ -91,27 +91,30 @@ TEST_F(ChannelsRun, StatisticsStayWhereTheCheckReadsThem) {
 
 /// They hold what the arrays do, in both back ends.
 TEST_F(ChannelsRun, PngOfWhatFits) {
-  const Arguments some = {"--frames", "0", "--set",
-                          "render.channels=[\"normal\",\"albedo\",\"alpha\",\"body_id\",\"triangle_id\"]"};
+  const Arguments some = {
+      "--frames", "0", "--set",
+      "render.channels=[\"normal\",\"albedo\",\"alpha\",\"body_id\",\"triangle_id\",\"depth\"]"};
   for (const char* backend : {"raster", "path"}) {
     backend_ = backend;
     const std::string name = backend;
     expect(0, run(name, some));
     expect(0, run(name + "-png", some + Arguments{"--set", "render.channel_format=png"}));
-    EXPECT_EQ(channel_files(name + "-png"), 5);
+    EXPECT_EQ(channel_files(name + "-png"), 6);
     const auto samples = [&](const char* of) {
       const fs::path file = at(name + "-png") / "aov" / of / "frame_0000.png";
       return std::get<std::vector<std::uint16_t>>(render::read_png(read_all(file), file.string()).samples);
     };
     const auto normals = samples("normal"), ids = samples("triangle_id"), alphas = samples("alpha"),
-               albedos = samples("albedo");
+               albedos = samples("albedo"), depths = samples("depth");
     const std::vector<float> n = channel(name, "normal", 0), t = channel(name, "triangle_id", 0),
-                             a = channel(name, "alpha", 0), c = channel(name, "albedo", 0);
+                             a = channel(name, "alpha", 0), c = channel(name, "albedo", 0),
+                             z = channel(name, "depth", 0);
     ASSERT_EQ(normals.size(), n.size());
     int seen = 0;
     for (std::size_t i = 0; i < t.size(); ++i) {
       ASSERT_EQ(ids[3 * i], static_cast<int>(t[i]) + 1);
       ASSERT_NEAR(alphas[3 * i] / 65535.0F, a[i], 1e-5F);
+      ASSERT_NEAR(depths[3 * i], std::isinf(z[i]) ? 0.0F : 1000.0F * z[i], 0.501F);
       seen += t[i] >= 0.0F ? 1 : 0;
     }
     EXPECT_GT(seen, 100);
@@ -122,7 +125,7 @@ TEST_F(ChannelsRun, PngOfWhatFits) {
   }
   // Another format replaces the files.
   expect(0, run("path-png", some + Arguments{"--force"}));
-  EXPECT_EQ(channel_files("path-png"), 5);
+  EXPECT_EQ(channel_files("path-png"), 6);
   EXPECT_TRUE(fs::exists(at("path-png") / "aov/alpha/frame_0000.npy"));
 }
 

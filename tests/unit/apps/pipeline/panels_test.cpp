@@ -59,6 +59,30 @@ TEST_F(Panels, AreThePicturesOfTheirCamerasAndFields) {
   }
 }
 
+/// What is seen from below leaves the ground out, and the panels beside it keep theirs.
+TEST_F(Panels, FromTheBottomHaveNoGround) {
+  const Arguments size = {"--set", "render.height=40", "--frames", "0..1"},
+                  one = {"--set", "render.width=40"};
+  for (const char* const backend : {"raster", "path"}) {
+    backend_ = backend;
+    const std::string tag = backend;
+    const Arguments bottom = {"--set", "camera.view=bottom"};
+    expect(0, run("panels" + tag, size + Arguments{"--set", "render.width=84", "--set", "panel.0.view=bottom",
+                                                   "--set", "panel.1.zoom=1"}));
+    expect(0, run("bottom" + tag, size + one + bottom));
+    expect(0, run("side" + tag, size + one));
+    const render::Pixels whole = picture(at("panels" + tag), 1), below = picture(at("bottom" + tag), 1);
+    EXPECT_EQ(part(whole, 0, 0, 40, 40), part(below, 0, 0, 40, 40)) << backend;
+    EXPECT_EQ(part(whole, 44, 0, 40, 40), part(picture(at("side" + tag), 1), 0, 0, 40, 40)) << backend;
+    // The same in all panels, where the camera looks from there and a panel does not say otherwise.
+    expect(0, run("same" + tag, size + bottom +
+                                    Arguments{"--set", "render.width=84", "--set", "panel.0.zoom=1", "--set",
+                                              "panel.1.view=none"}));
+    const render::Pixels same = picture(at("same" + tag), 1);
+    EXPECT_EQ(part(same, 0, 0, 84, 40), part(whole, 0, 0, 84, 40)) << backend;
+  }
+}
+
 TEST_F(Panels, HaveTitlesAndRanges) {
   const Arguments titled = {"--set", "render.width=400",           "--set", "render.height=200",
                             "--set", "panel.0.field=displacement", "--set", "panel.1.field=von_mises"};

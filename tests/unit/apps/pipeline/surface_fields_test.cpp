@@ -132,6 +132,28 @@ TEST(SurfaceFields, BodiesThatShowTheSameShareARangeAndABar) {
   EXPECT_EQ(two(", range = [0, 9], color_bar = false").second, 1U);
 }
 
+/// Numbers of bodies have names, and nothing lies between them.
+TEST(SurfaceFields, BodiesAreCategories) {
+  const std::string body = "[[body]]\nmesh = 'bar.msh'\nlook = { field = 'body' }\n";
+  const SceneDesc scene =
+      parse_scene(body + "name = 'soft'\n" + body + "name = 'hard'\n", tests::data_file("run/two.toml"), {});
+  Progress quiet(true);
+  const sim::Model model = build_model(scene, quiet);
+  const std::vector<sim::Surface> surfaces = build_surfaces(scene, model, quiet);
+  SurfaceFields fields(scene, model, surfaces);
+  fields.see(model.initial_state().q);
+  const std::vector<ColorBar> bars = fields.bars();
+  ASSERT_EQ(bars.size(), 1U);
+  EXPECT_EQ(bars[0].title, "body");
+  EXPECT_EQ((std::array{bars[0].low, bars[0].high}), (Range{0.0, 1.0}));
+  ASSERT_EQ(bars[0].categories.size(), 2U);
+  EXPECT_EQ(bars[0].categories[0].name, "soft");
+  EXPECT_EQ(bars[0].categories[1].name, "hard");
+  EXPECT_EQ(bars[0].categories[1].value, 1.0);
+  const Shown other({"body.0.look.field=displacement", "body.0.look.range=[0, 1]"});
+  EXPECT_TRUE(other.fields.bars().at(0).categories.empty());
+}
+
 /// The titles of two bars, some of their looks given.
 std::vector<std::string> titles(const std::string& first, const std::string& second) {
   const std::string body = "[[body]]\nmesh = 'bar.msh'\nlook = { field = ";

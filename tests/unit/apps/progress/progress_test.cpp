@@ -31,6 +31,17 @@ TEST(Progress, IsPlainLinesWhereNoTerminalIs) {
   EXPECT_EQ(text.find('\x1b'), std::string::npos);
 }
 
+TEST(Progress, CountsFramesWhateverThePasses) {
+  const std::string text = said(false, [](Progress& progress) {
+    progress.begin(20, 2);
+    for (int i = 0; i < 40; ++i) progress.frame_done();
+    progress.end();
+  });
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 10) << text;
+  EXPECT_TRUE(text.starts_with("frame 2 of 20, ")) << text;
+  EXPECT_NE(text.find("\nframe 20 of 20, "), std::string::npos);
+}
+
 TEST(Progress, IsSilentWhenQuiet) {
   EXPECT_EQ(said(true,
                  [](Progress& progress) {

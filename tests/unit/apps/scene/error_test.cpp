@@ -165,8 +165,8 @@ TEST(WrongScene, Together) {
        Wrong{"[camera]\nposition = [0, 3, 0]\nlook_at = [0, 1, 0]",
              "a.toml:3:11: camera.up must not be along the view"},
        Wrong{"[camera]\nup = [0, 0, 0]", "a.toml:2:6: camera.up must not be 0"},
-       Wrong{"[render]\nchannels = ['normal', 'depth']\nchannel_format = 'png'",
-             "a.toml:2:12: render.channels: 'depth' has values that a PNG does not hold; give "
+       Wrong{"[render]\nchannels = ['normal', 'position']\nchannel_format = 'png'",
+             "a.toml:2:12: render.channels: 'position' has values that a PNG does not hold; give "
              "render.channel_format = \"npy\" or \"exr\""},
        Wrong{"[ground]\nradius = 2",
              "a.toml:2:10: ground.fade_start = 3 must be less than ground.radius = 2"},

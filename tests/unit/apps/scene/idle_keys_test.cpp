@@ -40,6 +40,35 @@ TEST(IdleKeys, OfTheCamera) {
             Lines{"camera.focus_distance, camera.blades have no effect: camera.f_stop is 0"});
 }
 
+TEST(IdleKeys, OfALensWithoutPerspective) {
+  const std::string lens = "[camera]\nf_stop = 2\nblades = 5\n";
+  for (const char* back_end : {"path", "raster"}) {
+    const std::string render = std::string("[render]\nbackend = \"") + back_end + "\"\n";
+    EXPECT_EQ(idle(render + lens + "orthographic = 2"),
+              Lines{"camera.f_stop, camera.blades have no effect: camera.orthographic is given"});
+    EXPECT_EQ(idle(render + lens), Lines{});
+  }
+  EXPECT_EQ(idle(lens + "[[panel]]\northographic = 1\n[[panel]]"), Lines{}) << "one panel has a perspective";
+}
+
+TEST(IdleKeys, OfLooksWithoutAField) {
+  const auto told = [](const std::string& look, const std::string& more = "") {
+    return idle_keys(parse_scene(
+        more + "[[body]]\nmesh = \"a.msh\"\nlook = " + look + "\n[[body]]\nmesh = \"b.msh\"", "a.toml", {}));
+  };
+  EXPECT_EQ(told("{ range = [0, 1], colormap = \"magma\", color_bar = false }"),
+            Lines{"body.0.look.colormap, body.0.look.range, body.0.look.color_bar have no effect: "
+                  "body.0.look.field is \"none\""});
+  EXPECT_EQ(told("{ range = [0, 1], field = \"J\" }"), Lines{});
+  EXPECT_EQ(told("{ color_bar = false }", "[[panel]]\nfield = \"J\"\n[[panel]]\n"), Lines{}) << "of a panel";
+}
+
+TEST(IdleKeys, OfGlyphsOfNothing) {
+  EXPECT_EQ(idle("[glyphs]\npins = true"), Lines{"glyphs.pins has no effect: no body has a pin"});
+  const std::string held = "[glyphs]\npins = true\n[[body]]\nmesh = \"a.msh\"\npin = [{ top = 0.1 }]";
+  EXPECT_EQ(idle_keys(parse_scene(held, "a.toml", {})), Lines{});
+}
+
 TEST(IdleKeys, OfPanels) {
   EXPECT_EQ(idle("[layout]\ncolumns = 2"), Lines{"layout.columns has no effect: there is no [[panel]]"});
   EXPECT_EQ(idle("[layout]\ncolumns = 2\n[[panel]]"), Lines{});
