@@ -160,7 +160,7 @@ TEST(SceneGeometry, WhatMovesIsMetWhereItIsAtTheRaysTime) {
     still.caster().intersect({&ray, 1}, Coherence::incoherent, {&of_still, 1});
     ASSERT_EQ(hit.mesh == MeshHit::none, of_still.mesh == MeshHit::none) << i;
     if (hit.mesh == MeshHit::none) continue;
-    const SceneGeometry::TriangleHit at = geometry.meet(ray, hit), expected = still.meet(ray, of_still);
+    const TriangleHit at = geometry.meet(ray, hit), expected = still.meet(ray, of_still);
     ASSERT_NEAR(at.t, expected.t, 1e-4) << i;
     ASSERT_TRUE(at.u >= -1e-4 && at.v >= -1e-4 && at.u + at.v <= 1.0 + 1e-4) << i;
     const SurfacePoint p = geometry.arrive(ray, hit, at), q = still.arrive(ray, of_still, expected);
