@@ -18,7 +18,7 @@ struct Box2 {
   }
 };
 
-/// Whether blockers of a light may be found from somewhere between the points: light_visibility()'s search.
+/// Whether blockers of a light may be found from somewhere between the points: find_blockers().
 bool may_be_hidden(const LightBlock& light, const CasterGrid& casters, int shadow_map,
                    const std::array<Vec3, 4>& points) {
   Box2 box;
