@@ -126,9 +126,16 @@ LAGOMORPH_INLINE void add_taps(const LightTaps& t, const Lattice& points, int ta
   }
 }
 
+/// Of the light's size, see add_taps().
+struct Slack {
+  float search, filter;
+};
 // Bodies go on below what the light sees of them, which reaches into the light from further beside it. With
-// more, a hollow's own sides, low above the receiver, would count as well.
-constexpr float search_slack = 3.0F, filter_slack = 2.0F;
+// more, a hollow's own sides, low above the receiver, would count as well; the ground has none.
+constexpr Slack slack_of_bodies = {3.0F, 2.0F}, slack_of_ground = {1e9F, 1e9F};
+LAGOMORPH_INLINE const Slack& slack_of(const Receivers& at) {
+  return at.is_ground ? slack_of_ground : slack_of_bodies;
+}
 
 /// Cosine of the light's direction to a triangle from which on the triangle's plane counts alone.
 constexpr float most_turned = 0.2F;
@@ -216,7 +223,7 @@ LAGOMORPH_INLINE void blockers_of(const FrameBlock& frame, const DepthMaps& maps
   found.taps.fill(0.0F);
   if (!any(wanted)) return;
   const int taps = static_cast<int>(frame.shadow_taps[0]);
-  add_taps<see_through>(search.taps, lattice(taps), taps, search.reach_x, search.reach_y, search_slack,
+  add_taps<see_through>(search.taps, lattice(taps), taps, search.reach_x, search.reach_y, slack_of(at).search,
                         wanted, found.nearness, found.taps);
 }
 
@@ -240,7 +247,8 @@ LAGOMORPH_INLINE void shadow_of(const FrameBlock& frame, const DepthMaps& maps, 
     const float pixels = std::min(spread_x[l], spread_y[l]) * search.distance[l] / at.footprint[l];
     shadow.share[l] = std::min(std::max(0.5F * pixels - 0.5F, 0.0F), 1.0F);
   }
-  add_taps<see_through>(t, lattice(taps), taps, spread_x, spread_y, filter_slack, wanted, sum, blocked);
+  add_taps<see_through>(t, lattice(taps), taps, spread_x, spread_y, slack_of(at).filter, wanted, sum,
+                        blocked);
   for (Index l = 0; l < all; ++l) shadow.blocked[l] = blocked[l] / static_cast<float>(taps);
 }
 

@@ -65,6 +65,7 @@ void clear(Receivers& r, int lane) {
 
 /// A point of the ground; all see the same plane.
 void put_ground(Receivers& r, int lane, const Vec3& point, float normal_y, float footprint) {
+  r.is_ground = true;
   const auto l = static_cast<std::size_t>(lane);
   r.there[l] = 1;
   r.point.set(lane, point);

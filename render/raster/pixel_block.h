@@ -44,6 +44,7 @@ struct alignas(64) Receivers {
   Lanes depth;                   // along the view axis [m]; pixels share what they sample where it is alike
   Lanes footprint;               // size of a pixel there [m]
   std::array<int, lanes> there;  // 0: nothing; its other values are finite all the same
+  bool is_ground = false;        // a plane, which nothing of itself is above
 };
 
 /// Without a branch.
