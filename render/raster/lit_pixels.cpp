@@ -4,11 +4,13 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "render/raster/pixel_block.h"
+#include "render/raster/pixel_ray.h"
 #include "render/raster/sky_visibility.h"
 #include "render/raster/soft_shadow.h"
 
