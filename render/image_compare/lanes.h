@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "render/simd.h"
+
 /// Rows of floats, several at a time. One body of code is compiled for the base instruction set and for AVX2
 /// and chosen at run time; both give the same bits, since neither contracts or reorders anything.
 namespace lagomorph::render {
@@ -11,8 +13,7 @@ namespace lagomorph::render {
 #else
 #define LAGOMORPH_AVX2
 #endif
-/// For the bodies: inlined into each of their two instantiations.
-#define LAGOMORPH_INLINE inline __attribute__((always_inline))
+// LAGOMORPH_INLINE: the bodies, inlined into each of their two instantiations.
 
 /// `n` floats at any address.
 template <std::size_t n>

@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "render/raster/pixel_ray.h"
+
 namespace lagomorph::render::raster {
 namespace {
 
@@ -18,7 +20,7 @@ struct Box2 {
   }
 };
 
-/// Whether blockers of a light may be found from somewhere between the points: light_visibility()'s search.
+/// Whether blockers of a light may be found from somewhere between the points: find_blockers().
 bool may_be_hidden(const LightBlock& light, const CasterGrid& casters, int shadow_map,
                    const std::array<Vec3, 4>& points) {
   Box2 box;
@@ -44,23 +46,6 @@ bool may_be_hidden(const LightBlock& light, const CasterGrid& casters, int shado
 }
 
 }  // namespace
-
-PixelRay pixel_ray(const FrameBlock& frame, float x, float y) {
-  const Vec3 across = (2.0F * x * frame.viewport[2] - 1.0F) * frame.right.head<3>() +
-                      (2.0F * y * frame.viewport[3] - 1.0F) * frame.up.head<3>();
-  const bool parallel = frame.eye.w() > 0.5F;
-  return {frame.eye.head<3>() + (parallel ? across : Vec3::Zero()),
-          frame.forward.head<3>() + (parallel ? Vec3::Zero() : across)};
-}
-
-std::optional<GroundPoint> ground_at_pixel(const FrameBlock& frame, float x, float y) {
-  const PixelRay ray = pixel_ray(frame, x, y);
-  const float depth = (frame.ground.x() - ray.origin.y()) / ray.direction.y();
-  if (!(depth > 0.0F && depth < 1e9F)) return std::nullopt;
-  GroundPoint ground = {ray.origin + depth * ray.direction, depth};
-  ground.point.y() = frame.ground.x();
-  return ground;
-}
 
 std::vector<TileRun> touched_tiles(const FrameBlock& frame, std::span<const CasterGrid> casters,
                                    int shadow_map, const PixelRectangle& drawn) {

@@ -4,9 +4,15 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+
+#include "render/raster/pixel_block.h"
+#include "render/raster/pixel_ray.h"
+#include "render/raster/sky_visibility.h"
+#include "render/raster/soft_shadow.h"
 
 namespace lagomorph::render::raster {
 namespace {
@@ -16,10 +22,6 @@ constexpr Parts whole = {65535, 65535, 65535, 65535};
 std::uint16_t fraction(float x) {
   return static_cast<std::uint16_t>(std::clamp(x * 65535.0F + 0.5F, 0.0F, 65535.0F));
 }
-
-/// Of a lane in its block, from the lower left.
-int column(int lane) { return 2 * (lane / 4) + (lane & 1); }
-int row(int lane) { return (lane >> 1) & 1; }
 
 /// As pixel_footprint() of the shaders.
 float pixel_footprint(const FrameBlock& frame, float depth) {
@@ -57,6 +59,7 @@ void clear(Receivers& r, int lane) {
   r.there[l] = 0;
   r.point.set(lane, Vec3::Zero());
   for (Lanes3* n : {&r.flat_normal, &r.normal, &r.mirrored}) n->set(lane, Vec3::UnitY());
+  r.raised[l] = 0.0F;
   r.roughness[l] = 1.0F;
   r.depth[l] = 1e9F;  // unlike any neighbour's
   r.footprint[l] = 1.0F;
@@ -64,6 +67,7 @@ void clear(Receivers& r, int lane) {
 
 /// A point of the ground; all see the same plane.
 void put_ground(Receivers& r, int lane, const Vec3& point, float normal_y, float footprint) {
+  r.is_ground = true;
   const auto l = static_cast<std::size_t>(lane);
   r.there[l] = 1;
   r.point.set(lane, point);
@@ -72,7 +76,9 @@ void put_ground(Receivers& r, int lane, const Vec3& point, float normal_y, float
   r.footprint[l] = footprint;
 }
 
-void ground_receivers(const FrameBlock& frame, int x, int y, Receivers& r) {
+/// Returns whether any is in the block.
+bool ground_receivers(const FrameBlock& frame, int x, int y, Receivers& r) {
+  bool any = false;
   for (int lane = 0; lane < lanes; ++lane) {
     clear(r, lane);
     const std::optional<GroundPoint> ground = ground_at_pixel(
@@ -80,7 +86,9 @@ void ground_receivers(const FrameBlock& frame, int x, int y, Receivers& r) {
     if (!ground) continue;
     const bool above = frame.eye.w() > 0.5F ? frame.forward.y() < 0.0F : frame.eye.y() > ground->point.y();
     put_ground(r, lane, ground->point, above ? 1.0F : -1.0F, pixel_footprint(frame, ground->depth));
+    any = true;
   }
+  return any;
 }
 
 void ground_map_receivers(const FrameBlock& frame, int x, int y, Receivers& r) {
@@ -116,20 +124,48 @@ bool surface_receivers(const FrameBlock& frame, bool with_mirrored, const PixelR
     const Vec3 normal = direction_of(unpacked(t.normal));
     r.normal.set(lane, normal);
     if (with_mirrored) r.mirrored.set(lane, mirrored_view(-ray.direction.normalized(), normal));
-    r.roughness[l] = static_cast<float>(t.finish - 1U) / 65534.0F;
+    r.roughness[l] = static_cast<float>((t.finish & 0xffffU) - 1U) / 65534.0F;
+    r.raised[l] =
+        static_cast<float>(Eigen::numext::bit_cast<Eigen::half>(static_cast<std::uint16_t>(t.finish >> 16U)));
     r.depth[l] = depth;
     r.footprint[l] = pixel_footprint(frame, depth);
   }
   return any;
 }
 
-/// Calls block(x, y) for the corners of all blocks of a rectangle of whole ones, rows of them at a time.
+/// Rectangles of whole blocks around `part` with a block more to all sides, for neighbours of its pixels to
+/// be there; receivers(x, y, r) puts those of the block at a corner, and says whether anything is there.
+template <class BlockReceivers>
+ReceiverBlocks receivers_around(const PixelRectangle& part, const BlockReceivers& receivers) {
+  ReceiverBlocks all;
+  all.resize(part.width / block_width + 2, part.height / block_height + 2);
+  for (int k = 0; k < all.rows * all.columns; ++k) {
+    const int x = part.x + (k % all.columns - 1) * block_width,
+              y = part.y + (k / all.columns - 1) * block_height;
+    const auto i = static_cast<std::size_t>(k);
+    all.empty[i] = receivers(x, y, all.blocks[i]) ? 0 : 1;
+  }
+  return all;
+}
+
+/// Calls block(x, y, receivers) for those of the part itself that are not empty.
 template <class Block>
-void for_blocks(int width, int height, const Block& block) {
-  tbb::parallel_for(tbb::blocked_range<int>(0, height / block_height, 4), [&](const auto& rows) {
-    for (int k = rows.begin(); k != rows.end(); ++k) {
-      for (int x = 0; x < width; x += block_width) block(x, k * block_height);
+void for_blocks_of(const PixelRectangle& part, const ReceiverBlocks& receivers, const Block& block) {
+  for (int j = 1; j < receivers.rows - 1; ++j) {
+    for (int i = 1; i < receivers.columns - 1; ++i) {
+      const auto k = static_cast<std::size_t>(j * receivers.columns + i);
+      if (receivers.empty[k] == 0)
+        block(part.x + (i - 1) * block_width, part.y + (j - 1) * block_height, receivers.blocks[k]);
     }
+  }
+}
+
+/// Calls part() for bands of a rectangle of whole blocks, on all threads.
+template <class Part>
+void for_bands(int width, int height, const Part& part) {
+  constexpr int most = 32;  // rows, over which a block more to both sides is little
+  tbb::parallel_for(0, (height + most - 1) / most, [&](int k) {
+    part(PixelRectangle{0, k * most, width, std::min(most, height - k * most)});
   });
 }
 
@@ -137,16 +173,18 @@ std::size_t pixel_of(const PixelRectangle& at, int x, int y) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(at.width) + static_cast<std::size_t>(x);
 }
 
-/// The lights of one block, those whose bit is set.
-void put_lights(const FrameBlock& frame, const DepthMaps& maps, const Receivers& r, std::uint32_t which,
-                int x, int y, LitPixels& lit) {
-  Lanes seen;
+/// Those lights whose bit is set, of the part in the middle of its receivers.
+void put_lights(const FrameBlock& frame, const DepthMaps& maps, const ReceiverBlocks& receivers,
+                std::uint32_t which, const PixelRectangle& part, LitPixels& lit) {
+  std::vector<float> seen;
   for (std::size_t i = 0; i < maps.lights.size(); ++i) {
     if ((which >> i & 1U) == 0) continue;
-    light_visibility(frame, maps, static_cast<int>(i), r, seen);
-    for (int lane = 0; lane < lanes; ++lane)
-      lit.lights[pixel_of(lit.at, x + column(lane), y + row(lane))][i] =
-          fraction(seen[static_cast<std::size_t>(lane)]);
+    soft_shadow(frame, maps, static_cast<int>(i), receivers, seen);
+    for (int y = 0; y < part.height; ++y) {
+      const float* from = seen.data() + (y + block_height) * receivers.width() + block_width;
+      Parts* to = lit.lights.data() + pixel_of(lit.at, part.x, part.y + y);
+      for (int x = 0; x < part.width; ++x) to[x][i] = fraction(from[x]);
+    }
   }
 }
 
@@ -190,15 +228,12 @@ void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<cons
   tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t k) {
     const TileRun& run = runs[k];
     if (run.lights_hidden == 0) return;
-    Receivers r;
-    const int x0 = static_cast<int>(run.left), x1 = static_cast<int>(run.right);
-    const int y0 = static_cast<int>(run.lower), y1 = static_cast<int>(run.upper);
-    for (int y = y0; y < y1; y += block_height) {
-      for (int x = x0; x < x1; x += block_width) {
-        ground_receivers(frame, x, y, r);
-        put_lights(frame, maps, r, run.lights_hidden, x - lit.at.x, y - lit.at.y, lit);
-      }
-    }
+    PixelRectangle part{static_cast<int>(run.left), static_cast<int>(run.lower),
+                        static_cast<int>(run.right - run.left), static_cast<int>(run.upper - run.lower)};
+    const ReceiverBlocks receivers =
+        receivers_around(part, [&](int x, int y, Receivers& r) { return ground_receivers(frame, x, y, r); });
+    part.x -= lit.at.x, part.y -= lit.at.y;
+    put_lights(frame, maps, receivers, run.lights_hidden, part, lit);
   });
 }
 
@@ -209,14 +244,19 @@ bool light_surfaces(const FrameBlock& frame, const DepthMaps& maps, const PixelR
   lit.at = rectangle;
   for (std::vector<Parts>* parts : {&lit.lights, &lit.diffuse}) parts->resize(area(rectangle));
   lit.mirrored.resize(maps.sky_is_map ? area(rectangle) : 0);
-  for_blocks(rectangle.width, rectangle.height, [&](int x, int y) {
-    Receivers r;
-    if (!surface_receivers(frame, maps.sky_is_map, rectangle, texels, x, y, r)) return;
-    put_lights(frame, maps, r, all_lights, x, y, lit);
-    SkySeen seen;
-    sky_seen(frame, maps, r, seen);
-    put_sky(seen.diffuse, rectangle, x, y, lit.diffuse);
-    if (maps.sky_is_map) put_sky(seen.mirrored, rectangle, x, y, lit.mirrored);
+  for_bands(rectangle.width, rectangle.height, [&](const PixelRectangle& band) {
+    const ReceiverBlocks receivers = receivers_around(band, [&](int x, int y, Receivers& r) {
+      const bool inside =
+          x >= 0 && y >= 0 && x + block_width <= rectangle.width && y + block_height <= rectangle.height;
+      return inside && surface_receivers(frame, maps.sky_is_map, rectangle, texels, x, y, r);
+    });
+    put_lights(frame, maps, receivers, all_lights, band, lit);
+    for_blocks_of(band, receivers, [&](int x, int y, const Receivers& r) {
+      SkySeen seen;
+      sky_seen(frame, maps, r, seen);
+      put_sky(seen.diffuse, rectangle, x, y, lit.diffuse);
+      if (maps.sky_is_map) put_sky(seen.mirrored, rectangle, x, y, lit.mirrored);
+    });
   });
   return true;
 }
@@ -227,13 +267,17 @@ void light_ground_map(const FrameBlock& frame, const DepthMaps& maps, LitPixels&
   lit.lights.assign(area(lit.at), whole);
   lit.diffuse.resize(area(lit.at));
   lit.mirrored.clear();
-  for_blocks(size, size, [&](int x, int y) {
-    Receivers r;
-    ground_map_receivers(frame, x, y, r);
-    put_lights(frame, maps, r, all_lights, x, y, lit);
-    SkySeen seen;
-    sky_seen_softly(frame, maps, r, seen);
-    put_sky(seen.diffuse, lit.at, x, y, lit.diffuse);
+  for_bands(size, size, [&](const PixelRectangle& band) {
+    const ReceiverBlocks receivers = receivers_around(band, [&](int x, int y, Receivers& r) {
+      ground_map_receivers(frame, x, y, r);
+      return true;
+    });
+    put_lights(frame, maps, receivers, all_lights, band, lit);
+    for_blocks_of(band, receivers, [&](int x, int y, const Receivers& r) {
+      SkySeen seen;
+      sky_seen_softly(frame, maps, r, seen);
+      put_sky(seen.diffuse, lit.at, x, y, lit.diffuse);
+    });
   });
 }
 

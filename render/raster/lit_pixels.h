@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "render/raster/depth_maps.h"
 #include "render/raster/frame_block.h"
 #include "render/raster/ground_tiles.h"
-#include "render/raster/visibility.h"
 
 namespace lagomorph::render::raster {
 
@@ -26,7 +26,8 @@ struct SurfaceTexel {
   std::uint32_t depth;        // bits of a float, along the view axis [m]
   std::uint32_t normal;       // two fractions in [-1, 1] of 16 bits, on the octahedron
   std::uint32_t flat_normal;  // likewise
-  std::uint32_t finish;       // 1 + 65534 times the roughness; 0: nothing, or nothing that is lit
+  std::uint32_t finish;       // lower half: 1 + 65534 times the roughness; upper: half float, see
+                              // Receivers::raised [m]; 0: nothing, or nothing that is lit
 };
 
 /// The smallest rectangle of whole blocks around one, in a picture of whole blocks or a little less.

@@ -306,8 +306,10 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
     targets->bind_seen();
     targets->clear_seen();
   }
-  const PixelRectangle seen = common_rectangle(
-      whole_blocks(common_rectangle(seen_rectangle(camera, positions_, scene_), drawn)), picture);
+  // With the neighbours that soft_shadow() shares with.
+  const PixelRectangle around = {drawn.x - 2, drawn.y - 2, drawn.width + 4, drawn.height + 4};
+  const PixelRectangle wanted = common_rectangle(seen_rectangle(camera, positions_, scene_), around);
+  const PixelRectangle seen = common_rectangle(whole_blocks(common_rectangle(wanted, picture)), picture);
   glScissor(drawn.x, drawn.y, drawn.width, drawn.height);
   if (!settings_.region.empty()) glEnable(GL_SCISSOR_TEST);
   draw_background(drawn);

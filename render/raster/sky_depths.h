@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "render/raster/depth_maps.h"
 #include "render/raster/frame_block.h"
-#include "render/raster/visibility.h"
 #include "render/render_scene.h"
 
 namespace lagomorph::render::raster {

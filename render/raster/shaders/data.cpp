@@ -47,7 +47,7 @@ void main() {
   vec3 x;
   float depth;
   if (!meet_ground(x, depth) || ground_distance(x) > ground.y) discard;
-  put(x, x, -1.0, vec3(0.0, towards_eye(x).y > 0.0 ? 1.0 : -1.0, 0.0), ground_color_at(x, vec2(0.0)));
+  put(x, x, -1.0, vec3(0.0, towards_eye(x).y > 0.0 ? 1.0 : -1.0, 0.0), ground_color_at(x, mat2(0.0)));
 }
 )";
 

@@ -21,6 +21,16 @@ bool meet_ground(out vec3 x, out float depth) {
   x.y = ground.x;
   return met;
 }
+// How far x and z go with two independent standard deviations of the path tracer's filter, a Blackman-Harris window of
+// 1.5 pixels to all sides unless it is told otherwise: 0.416 pixels to the right and up [m].
+mat2 ground_spread(float depth) {
+  vec3 origin, direction;
+  pixel_ray(origin, direction);
+  vec3 right_by = 2.0 * viewport.z * right.xyz, up_by = 2.0 * viewport.w * up.xyz;  // the ray, a pixel on
+  float scale = 0.416 * (eye.w > 0.5 ? 1.0 : depth);
+  return mat2(scale * (right_by - right_by.y / direction.y * direction).xz,
+              scale * (up_by - up_by.y / direction.y * direction).xz);
+}
 float ground_distance(vec3 x) { return length(x.xz - ground_at.xz); }
 float ground_fade(vec3 x) {
   float t = clamp((ground_distance(x) - ground.z) / (ground.y - ground.z), 0.0, 1.0);
@@ -30,40 +40,9 @@ float ground_fade(vec3 x) {
 vec3 ground_normal(vec3 v) { return vec3(0.0, v.y > 0.0 ? 1.0 : -1.0, 0.0); }
 )";
 
-// The ground's colour, the mean over a square of `width` around x; see ground_texture.h.
-const char* const ground_color = R"(
-// The integral from 0 to x of what is 1 on lines of that width at multiples of `period` and 0 elsewhere.
-vec2 lines_up_to(vec2 x, float period, float line) {
-  vec2 k = floor(x / period + 0.5);
-  return k * line + clamp(x - k * period, -0.5 * line, 0.5 * line);
-}
-vec2 on_lines(vec2 x, vec2 width, float period, float line) {
-  line = min(line, period);
-  return (lines_up_to(x + 0.5 * width, period, line) - lines_up_to(x - 0.5 * width, period, line)) / width;
-}
-vec3 ground_color_at(vec3 x, vec2 width) {
-  vec3 plain = surfaces[0].color.rgb;
-  if (ground_texture.x < 0.5) return plain;
-  float size = ground_texture.y;
-  width = max(width, vec2(1e-4 * size));
-  float part;
-  if (ground_texture.x < 1.5) {
-    // Squares are bands of the two directions' signs, whose means multiply.
-    vec2 odd = on_lines(x.xz - 0.5 * size, width, 2.0 * size, size);
-    vec2 mean_sign = 1.0 - 2.0 * odd;
-    part = 0.5 - 0.5 * mean_sign.x * mean_sign.y;
-  } else {
-    vec2 fine = on_lines(x.xz, width, size, ground_texture.z);
-    vec2 metres = on_lines(x.xz, width, 1.0, 3.0 * ground_texture.z);
-    vec2 line = max(fine, metres);
-    part = 1.0 - (1.0 - line.x) * (1.0 - line.y);
-  }
-  return mix(plain, texture_color.rgb, part);
-}
-)";
-
-// The picture without the meshes, and what they can take from the ground in it, times the part of the ground that
-// does not fade: see taken_fragment. Highlights end where half floats do, so that a shadow leaves nothing of them.
+// The picture without the meshes, and what they can take from the ground in it, times the part of the ground
+// that does not fade: see taken_fragment. Highlights end where half floats do, so that a shadow leaves
+// nothing of them.
 const char* const still_fragment = R"(
 layout(location = 0) out vec4 picture;
 layout(location = 1) out vec4 diffuse;   // what the sky's light on the ground becomes; w: of a white ground
@@ -90,14 +69,12 @@ void main() {
   Point p;
   float depth;
   bool met = meet_ground(p.x, depth);
-  // As wide as the path tracer's filter: a box of the same variance.
-  vec2 over_x = dFdx(p.x.xz), over_y = dFdy(p.x.xz);
   float part = met && ground.w > 0.5 ? 1.0 - ground_fade(p.x) : 0.0;
   if (part <= 0.0) return;
   vec3 v = towards_eye(p.x);
   p.normal = ground_normal(v);
   Surface surface = surfaces[0];
-  surface.color.rgb = ground_color_at(p.x, 1.35 * sqrt(over_x * over_x + over_y * over_y));
+  surface.color.rgb = ground_color_at(p.x, ground_spread(depth));
   Finish finish = finish_of(surface, p.normal, v);
   SkyLight sky = sky_light(finish, p.normal, v, radiance_below_ground(p.normal));
   vec3 sent = part * sent_of_sky(finish, sky, SkySeen(vec3(1.0), vec3(1.0)));
@@ -116,8 +93,8 @@ void main() {
 }
 )";
 
-// A run of tiles a instance: its left, lower, right and upper border [pixels], and a bit for each light that meshes
-// may hide there.
+// A run of tiles a instance: its left, lower, right and upper border [pixels], and a bit for each light that
+// meshes may hide there.
 const char* const tiles_vertex = R"(
 layout(location = 0) in vec4 run;
 layout(location = 1) in uint hidden;
@@ -201,7 +178,7 @@ void main() {
     light += lights[i].radiance.rgb * rectangle_irradiance(lights[i], x, n, direction) * lights_seen[i];
   }
   ambient = vec4(seen, 1.0);
-  bounce = vec4((1.0 - surfaces[0].finish.y) * ground_color_at(x, vec2(ground_map.y)) / PI * light, 1.0);
+  bounce = vec4((1.0 - surfaces[0].finish.y) * ground_color_at(x, mat2(ground_map.y / sqrt(12.0))) / PI * light, 1.0);
 }
 )";
 

@@ -28,9 +28,11 @@ out vec3 before;  // where the point was at the frame before
 #endif
 VARYING vec3 world;
 VARYING vec3 smooth_normal;
+VARYING float tangent_plane;  // its distance from the origin [m]
 void main() {
   world = position;
   smooth_normal = normal;
+  tangent_plane = dot(position, normal);
 #ifdef MOTION
   before = moves ? previous : position;
 #endif
@@ -60,9 +62,10 @@ void main() {
 }
 )";
 
-// What is seen in each sample: depth, the two normals, and 1 + the number of the surface; with COLORS the
-// vertices' colour where they have one, w 1. Triangles are small and their pixels many, so that nothing is
-// lit here.
+// What is seen in each sample: depth, the two normals, and 1 + the number of the surface in the lower half of the last
+// value; with COLORS the vertices' colour where they have one, w 1. Triangles are small and their pixels many, so that
+// nothing is lit here. The upper half is how far the smooth surface that the vertices' normals stand for is above the
+// triangle [m], as in the path tracer [Hanika 2021]: half of the mean distance to the vertices' tangent planes.
 //
 // With PEEL: of the surfaces that are not opaque, the next one behind that of the pass before, in each sample
 // for itself [Everitt 2001]. The upper half of the last value is then what those before it let through.
@@ -82,6 +85,7 @@ uniform bool is_first;
 #endif
 #ifndef EMITTER
 VARYING vec3 smooth_normal;
+VARYING float tangent_plane;
 uniform bool is_smooth;
 #endif
 VARYING vec3 world;
@@ -105,8 +109,13 @@ uint octahedral(vec3 n) {
 void main() {
   vec3 flat_normal = normalize(cross(dFdx(world), dFdy(world)));  // towards the viewer
   vec3 n = flat_normal;
+  float raised = 0.0;
 #ifndef EMITTER
-  if (is_smooth) n = normalize(gl_FrontFacing ? smooth_normal : -smooth_normal);
+  if (is_smooth) {
+    float side = gl_FrontFacing ? 1.0 : -1.0;
+    n = normalize(side * smooth_normal);
+    raised = max(0.5 * side * (tangent_plane - dot(world, smooth_normal)), 0.0);
+  }
 #endif
   float depth = dot(world - eye.xyz, forward.xyz);
   uint id = surface + 1u;
@@ -121,6 +130,8 @@ void main() {
   id |= packUnorm2x16(vec2(0.0, passed));
   vec4 clip = clip_from_world * vec4(world, 1.0);
   gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;  // in the order of `depth`
+#else
+  id |= packHalf2x16(vec2(0.0, raised));
 #endif
   texel = uvec4(floatBitsToUint(depth), octahedral(n), octahedral(flat_normal), id);
 #ifdef COLORS
@@ -158,6 +169,8 @@ struct Sample {
   uint id;       // 1 + the surface's number, 0: nothing is seen
 #ifdef PEEL
   float weight;  // what the surfaces before it let through, times its opacity
+#else
+  float raised;  // see seen_fragment
 #endif
 };
 struct Layers {
@@ -178,13 +191,13 @@ Layers sort_samples() {
   l.count = 0;
   for (int s = 0; s < SAMPLES; ++s) {
     uvec4 texel = texelFetch(seen_samples, ivec2(gl_FragCoord.xy), s);
-#ifdef PEEL
     uint id = texel.w & 0xffffu;
+#ifdef PEEL
     float weight = id != 0u ? unpackUnorm2x16(texel.w).y * surfaces[id - 1u].finish.w : 0.0;
     l.samples[s] = Sample(uintBitsToFloat(texel.x), vec4(unpackSnorm2x16(texel.y), unpackSnorm2x16(texel.z)), id, weight);
 #else
     l.samples[s] = Sample(uintBitsToFloat(texel.x), vec4(unpackSnorm2x16(texel.y), unpackSnorm2x16(texel.z)),
-                          texel.w);
+                          id, unpackHalf2x16(texel.w).y);
 #endif
     l.layer[s] = -1;
     for (int r = 0; r < s; ++r) {
@@ -232,16 +245,32 @@ LayerPoint layer_point(Layers l, int layer) {
 }
 )";
 
-// A layer's surface, for the CPU to find what it sees of the lights and the sky: SurfaceTexel of lit_pixels.h.
+// A layer's surface, for the CPU to find what it sees of the lights and the sky: SurfaceTexel of lit_pixels.h. Point
+// and plane are those of one sample, for the mean of two triangles' is on neither.
 const char* const surface_fragment = R"(
 uniform int layer;
 out uvec4 texel;
 void main() {
-  LayerPoint p = layer_point(sort_samples(), layer);
+  Layers l = sort_samples();
+  LayerPoint p = layer_point(l, layer);
   Surface surface = surfaces[p.id - 1u];
   bool lit = p.count > 0.0 && surface.color.w < 0.5;
-  texel = uvec4(floatBitsToUint(p.depth), packSnorm2x16(p.normals.xy), packSnorm2x16(p.normals.zw),
-                lit ? 1u + uint(65534.0 * clamp(surface.finish.x, 0.0, 1.0) + 0.5) : 0u);
+  int middle = 0;
+  float nearest = 1e30;
+  for (int s = 0; s < SAMPLES; ++s) {
+    float away = 0.0;  // from the others
+    for (int r = 0; r < SAMPLES; ++r) away += l.layer[r] == layer ? abs(l.samples[r].depth - l.samples[s].depth) : 0.0;
+    if (l.layer[s] != layer || away >= nearest) continue;
+    middle = s;
+    nearest = away;
+  }
+  Sample sample_of = l.samples[middle];
+  uint finish = 1u + uint(65534.0 * clamp(surface.finish.x, 0.0, 1.0) + 0.5);
+#ifndef PEEL
+  finish |= packHalf2x16(vec2(0.0, sample_of.raised));
+#endif
+  texel = uvec4(floatBitsToUint(sample_of.depth), packSnorm2x16(p.normals.xy), packSnorm2x16(sample_of.normals.zw),
+                lit ? finish : 0u);
 }
 )";
 

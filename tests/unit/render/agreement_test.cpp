@@ -274,7 +274,7 @@ TEST(BackEndsAgree, OnDirectLightOfARectangle) {
   RenderScene scene = matte_scene();
   scene.lights.resize(1);
   const auto [apart, bias] = light_apart(scene);
-  EXPECT_LT(apart, 0.012);
+  EXPECT_LT(apart, 0.009);
   EXPECT_LT(std::abs(bias), 0.002);
 }
 

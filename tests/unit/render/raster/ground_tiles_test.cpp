@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/raster/pixel_ray.h"
 #include "tests/unit/render/raster/shapes.h"
 
 namespace lagomorph::render::raster {

@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -132,6 +135,51 @@ TEST(RasterShadow, EachLightHasItsOwn) {
   };
   const float from_side = 2.0F * strength(side.position);
   EXPECT_NEAR(v[0], from_side / (from_side + strength(Vec3(0.0F, 4.0F, 0.0F))), 0.01F);
+}
+
+/// Where the vertices' normals face the light, triangles that are turned away from it are lit: not in a
+/// shadow.
+TEST(RasterShadow, FallsOnTrianglesThatAreTurnedAway) {
+  RenderScene scene = square_over_ground(0.05F);
+  scene.ground.enabled = false;
+  scene.lights[0].position.y() = 40.0F;  // its light falls along the triangles at the sphere's equator
+  scene.lights[0].radiance *= 100.0F;
+  scene.meshes.push_back(sphere(Vec3(0.0F, 0.5F, 0.0F), 0.4F, 9));
+  CameraSettings camera;
+  camera.position = Vec3(0.0F, 0.5F, 3.0F);
+  camera.look_at = Vec3(0.0F, 0.5F, 0.0F);
+  camera.fov = 18.0F;
+  const RenderSettings settings = small_settings(200, 160);
+  const auto brightest = [&] {
+    const Image image = draw(scene, camera, settings);
+    const std::vector<float>& c = image.find("color")->values;
+    const auto from = static_cast<std::ptrdiff_t>(3 * 200 * 40);  // below the square
+    return *std::max_element(c.begin() + from, c.end());
+  };
+  EXPECT_LT(brightest(), 0.01F);  // 0.034 by the triangles' planes alone
+  scene.meshes.erase(scene.meshes.begin());
+  EXPECT_GT(brightest(), 0.1F);
+}
+
+/// The pixels of a quad share what they find, and yet have each their own place in the penumbra.
+TEST(RasterShadow, APenumbraHasNoStepsOfTwoPixels) {
+  const RenderScene scene = square_over_ground(1.2F);
+  CameraSettings camera;
+  camera.position = Vec3(0.0F, 0.9F, 6.0F);
+  camera.look_at = Vec3(0.0F, 0.0F, 0.0F);
+  camera.fov = 20.0F;
+  const Image image = draw(scene, camera, small_settings(640, 320));
+  const Camera view(camera, 640, 320);
+  const int y = static_cast<int>(view.project(Vec3::Zero()).y());
+  const int left = static_cast<int>(view.project(Vec3(0.5F, 0.0F, 0.0F)).x()) / 2 * 2;
+  const int right = static_cast<int>(view.project(Vec3(0.83F, 0.0F, 0.0F)).x()) / 2 * 2;
+  float within = 0.0F, between = 0.0F;
+  for (int x = left; x < right; x += 2) {
+    within += color_at(image, x + 1, y)[0] - color_at(image, x, y)[0];
+    between += color_at(image, x + 2, y)[0] - color_at(image, x + 1, y)[0];
+  }
+  EXPECT_GT(between, 0.05F);
+  EXPECT_NEAR(within / between, 1.0F, 0.1F);  // 0 where a quad is of one value
 }
 
 TEST(RasterShadow, TheSkyIsDimmedUnderABody) {

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "render/raster/pixel_block.h"
+
+namespace lagomorph::render::raster {
+
+/// Rows from below, depths from 0 to 1 in steps of 1 / no_depth: half the memory of floats, which is what
+/// looking them up takes its time for.
+using DepthMap = std::vector<std::uint16_t>;
+constexpr std::uint16_t no_depth = 65535;  // nothing is there
+
+/// Those of one frame.
+struct DepthMaps {
+  int light_size = 0;            // [texels]
+  std::vector<DepthMap> lights;  // one a light
+  int sky_size = 0;
+  std::vector<DepthMap> sky;  // one a direction; none: there are no meshes
+  bool see_through = false;   // some meshes are drawn as dots, see see_through_depth_map_fragment
+  bool sky_is_map = false;
+};
+
+/// Texels of one batch: of four taps or the four around a tap, all lanes of one after those of another.
+constexpr int batch = 4;
+using BatchIndices = std::array<std::int32_t, batch * lanes>;
+
+/// values[i] = map[at[i]], one by one: gathering by vector instructions takes twice as long.
+void look_up(const DepthMap::value_type* map, const std::int32_t* at, std::size_t count,
+             std::int32_t* values);
+
+}  // namespace lagomorph::render::raster

@@ -1,0 +1,269 @@
+#include "render/raster/light_visibility.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "render/simd.h"
+
+namespace lagomorph::render::raster {
+namespace {
+
+using Index = std::size_t;
+constexpr Index all = lanes;
+
+constexpr int most_taps = 64;
+
+/// Point k of n of a Fibonacci lattice on [-1, 1]^2.
+Vec2 lattice_point(int k, int n) {
+  const double across = (k + 0.5) / n, up = 0.5 + 0.61803398874989485 * k;
+  return {static_cast<float>(2.0 * across - 1.0), static_cast<float>(2.0 * (up - std::floor(up)) - 1.0)};
+}
+
+/// Of 4 n points, the n that each pixel of a quad takes: every fourth.
+struct Lattice {
+  struct alignas(64) Row {
+    Lanes x, y;
+  };
+  std::array<Row, most_taps> rows;
+
+  explicit Lattice(int taps) {
+    for (int k = 0; k < taps; ++k) {
+      for (int l = 0; l < lanes; ++l) {
+        const Vec2 p = lattice_point(4 * k + l % 4, 4 * taps);
+        rows[static_cast<Index>(k)].x[static_cast<Index>(l)] = p.x();
+        rows[static_cast<Index>(k)].y[static_cast<Index>(l)] = p.y();
+      }
+    }
+  }
+};
+
+/// Kept for all numbers of taps that occur; each is made once.
+const Lattice& lattice(int taps) {
+  static const std::vector<Lattice> lattices = [] {
+    std::vector<Lattice> made;
+    for (int n = 1; n <= most_taps; ++n) made.emplace_back(n);
+    return made;
+  }();
+  return lattices[static_cast<Index>(taps - 1)];
+}
+
+/// The light's map as the taps read it, and the receivers in the light's frame.
+struct alignas(64) LightTaps {
+  const DepthMap::value_type* map;
+  int size;
+  float scale_x, scale_y, offset_x, offset_y;    // tangents to texels
+  float tangent_x, tangent_y, first_x, first_y;  // and back
+  float reciprocal_scale, reciprocal_offset;     // depths to 1 / distance
+  float half_x, half_y;                          // of the light [m]
+  float least_x, least_y;                        // of any reach, as tangents
+  Lanes tangent_at_x, tangent_at_y, reciprocal,
+      plane;  // `plane`: distance of the plane that blockers are above
+  Lanes3 normal;
+};
+
+/// Over the lattice, of points within `reach` of each receiver: the sum of 1 / distance over what blocks the
+/// light, and how much does; nothing where it is not wanted. What is seen at a tap counts only where the
+/// receiver sees it before the light, or not further beside it than `slack` times the light's size.
+template <bool see_through>
+LAGOMORPH_INLINE void add_taps(const LightTaps& t, const Lattice& points, int taps, const Lanes& reach_x,
+                               const Lanes& reach_y, float slack, const std::array<int, lanes>& wanted,
+                               Lanes& sum, Lanes& count) {
+  alignas(64) Lanes s{}, c{};
+  alignas(64) BatchIndices at;
+  alignas(64) std::array<std::int32_t, batch * lanes> texel_x, texel_y;
+  alignas(64) BatchIndices depth;
+  const std::int32_t last = t.size - 1;
+  const auto limit = static_cast<float>(last);
+  // Where a tap looks: one texel, or four, for some only have dots.
+  constexpr int texels = see_through ? batch : 1;
+  constexpr float part = 1.0F / static_cast<float>(texels);
+  for (int first = 0; first < taps; first += batch / texels) {
+    const int rows = see_through ? batch : std::min(batch, taps - first);
+    for (int row = 0; row < rows; ++row) {
+      const Lattice::Row& p = points.rows[static_cast<Index>(see_through ? first : first + row)];
+      const Index base = static_cast<Index>(row) * all;
+      for (Index l = 0; l < all; ++l) {
+        const float shift = see_through ? 0.5F : 0.0F;
+        const float u = (t.tangent_at_x[l] + p.x[l] * reach_x[l]) * t.scale_x + t.offset_x - shift;
+        const float v = (t.tangent_at_y[l] + p.y[l] * reach_y[l]) * t.scale_y + t.offset_y - shift;
+        auto x = static_cast<std::int32_t>(std::min(std::max(u, 0.0F), limit));
+        auto y = static_cast<std::int32_t>(std::min(std::max(v, 0.0F), limit));
+        if constexpr (see_through) {
+          x = std::min(x + (row & 1), last);
+          y = std::min(y + (row >> 1), last);
+        }
+        texel_x[base + l] = x;
+        texel_y[base + l] = y;
+        at[base + l] = y * t.size + x;
+      }
+    }
+    look_up(t.map, at.data(), static_cast<Index>(rows) * all, depth.data());
+    for (int row = 0; row < rows; ++row) {
+      const Lattice::Row& p = points.rows[static_cast<Index>(see_through ? first : first + row)];
+      const Index base = static_cast<Index>(row) * all;
+      for (Index l = 0; l < all; ++l) {
+        const float reciprocal =
+            static_cast<float>(depth[base + l]) * t.reciprocal_scale + t.reciprocal_offset;
+        const float centre_x = (static_cast<float>(texel_x[base + l]) + 0.5F) * t.tangent_x + t.first_x;
+        const float centre_y = (static_cast<float>(texel_y[base + l]) + 0.5F) * t.tangent_y + t.first_y;
+        const float nearer = reciprocal - t.reciprocal[l];
+        const bool before = both(std::abs(p.x[l]) * reach_x[l] < slack * t.half_x * nearer + t.least_x,
+                                 std::abs(p.y[l]) * reach_y[l] < slack * t.half_y * nearer + t.least_y);
+        const bool blocks = both(
+            both(depth[base + l] != no_depth, both(before, nearer > 0.0F)),
+            t.normal.x[l] * centre_x + t.normal.y[l] * centre_y + t.normal.z[l] > t.plane[l] * reciprocal);
+        s[l] += blocks ? part * reciprocal : 0.0F;
+        c[l] += blocks ? part : 0.0F;
+      }
+    }
+  }
+  for (Index l = 0; l < all; ++l) {
+    sum[l] = wanted[l] != 0 ? s[l] : 0.0F;
+    count[l] = wanted[l] != 0 ? c[l] : 0.0F;
+  }
+}
+
+/// Of the light's size, see add_taps().
+struct Slack {
+  float search, filter;
+};
+// Bodies go on below what the light sees of them, which reaches into the light from further beside it. With
+// more, a hollow's own sides, low above the receiver, would count as well; the ground has none.
+constexpr Slack slack_of_bodies = {3.0F, 2.0F}, slack_of_ground = {1e9F, 1e9F};
+LAGOMORPH_INLINE const Slack& slack_of(const Receivers& at) {
+  return at.is_ground ? slack_of_ground : slack_of_bodies;
+}
+
+/// Cosine of the light's direction to a triangle from which on the triangle's plane counts alone.
+constexpr float most_turned = 0.2F;
+
+/// The rectangle that blockers are looked for in, and where there may be any.
+struct alignas(64) Search {
+  LightTaps taps;
+  Lanes distance, reach_x, reach_y;
+  std::array<int, lanes> lit, inside;  // not behind the surface; within the map
+};
+
+// Over so many texels the dots of what is seen through even out.
+template <bool see_through>
+constexpr float least_reach = see_through ? 4.0F : 1.0F;
+
+template <bool see_through>
+LAGOMORPH_INLINE void look_from_light(const FrameBlock& frame, const DepthMaps& maps, int number,
+                                      const Receivers& at, Search& search) {
+  const LightBlock& light = frame.lights[static_cast<Index>(number)];
+  const auto size = static_cast<float>(maps.light_size);
+  LightTaps& t = search.taps;
+  t.map = maps.lights[static_cast<Index>(number)].data();
+  t.size = maps.light_size;
+  t.scale_x = size * light.map[0], t.scale_y = size * light.map[1];
+  t.offset_x = size * light.map[2], t.offset_y = size * light.map[3];
+  t.tangent_x = 1.0F / t.scale_x, t.tangent_y = 1.0F / t.scale_y;
+  t.first_x = -light.map[2] / light.map[0], t.first_y = -light.map[3] / light.map[1];
+  t.reciprocal_scale = light.depth[0] / no_depth, t.reciprocal_offset = light.depth[1];
+  const float half_x = light.right[3], half_y = light.up[3];
+  t.half_x = half_x, t.half_y = half_y;
+  t.least_x = least_reach<see_through> * t.tangent_x, t.least_y = least_reach<see_through> * t.tangent_y;
+  for (Index l = 0; l < all; ++l) {
+    const float px = at.point.x[l] - light.position[0];
+    const float py = at.point.y[l] - light.position[1];
+    const float pz = at.point.z[l] - light.position[2];
+    // The triangle's plane; but from a triangle that is turned away from the light while the surface that it
+    // stands for is not, what blocks the light is below that, and the plane is the surface's own.
+    const float sx = at.normal.x[l], sy = at.normal.y[l], sz = at.normal.z[l];
+    const float fx = at.flat_normal.x[l], fy = at.flat_normal.y[l], fz = at.flat_normal.z[l];
+    const float facing = -(fx * px + fy * py + fz * pz) / std::sqrt(px * px + py * py + pz * pz + 1e-12F);
+    const float flat = std::min(std::max(facing * (1.0F / most_turned), 0.0F), 1.0F);
+    const float mx = sx + flat * (fx - sx), my = sy + flat * (fy - sy), mz = sz + flat * (fz - sz);
+    const float length = 1.0F / std::sqrt(mx * mx + my * my + mz * mz + 1e-12F);
+    const float nx = mx * length, ny = my * length, nz = mz * length;
+    const float qx = px * light.right[0] + py * light.right[1] + pz * light.right[2];
+    const float qy = px * light.up[0] + py * light.up[1] + pz * light.up[2];
+    const float qz = px * light.normal[0] + py * light.normal[1] + pz * light.normal[2];
+    t.normal.x[l] = nx * light.right[0] + ny * light.right[1] + nz * light.right[2];
+    t.normal.y[l] = nx * light.up[0] + ny * light.up[1] + nz * light.up[2];
+    t.normal.z[l] = nx * light.normal[0] + ny * light.normal[1] + nz * light.normal[2];
+    t.reciprocal[l] = 1.0F / std::max(qz, 1e-6F);
+    t.tangent_at_x[l] = qx * t.reciprocal[l];
+    t.tangent_at_y[l] = qy * t.reciprocal[l];
+    t.plane[l] = t.normal.x[l] * qx + t.normal.y[l] * qy + t.normal.z[l] * qz + light.depth[3] +
+                 at.footprint[l] + (1.0F - flat) * at.raised[l];
+    // A surface that the whole rectangle is behind gets none of its light.
+    const float above = std::abs(sx * light.right[0] + sy * light.right[1] + sz * light.right[2]) * half_x +
+                        std::abs(sx * light.up[0] + sy * light.up[1] + sz * light.up[2]) * half_y -
+                        (sx * px + sy * py + sz * pz);
+    search.lit[l] = static_cast<int>(at.there[l] != 0) & static_cast<int>(above > 0.0F);
+    search.distance[l] = std::max(qz, 0.0F);
+    const float farther = std::max(light.depth[2] - t.reciprocal[l], 0.0F);
+    search.reach_x[l] = half_x * farther + t.least_x;
+    search.reach_y[l] = half_y * farther + t.least_y;
+    search.inside[l] =
+        static_cast<int>(qz > 0.0F) & static_cast<int>(t.reciprocal[l] < light.depth[2]) &
+        static_cast<int>((t.tangent_at_x[l] - search.reach_x[l]) * t.scale_x + t.offset_x < size) &
+        static_cast<int>((t.tangent_at_y[l] - search.reach_y[l]) * t.scale_y + t.offset_y < size) &
+        static_cast<int>((t.tangent_at_x[l] + search.reach_x[l]) * t.scale_x + t.offset_x > 0.0F) &
+        static_cast<int>((t.tangent_at_y[l] + search.reach_y[l]) * t.scale_y + t.offset_y > 0.0F);
+  }
+}
+
+template <bool see_through>
+LAGOMORPH_INLINE void blockers_of(const FrameBlock& frame, const DepthMaps& maps, int light,
+                                  const Receivers& at, Blockers& found) {
+  Search search;
+  look_from_light<see_through>(frame, maps, light, at, search);
+  alignas(64) std::array<int, lanes> wanted;
+  for (Index l = 0; l < all; ++l) {
+    found.depth[l] = search.lit[l] != 0 ? at.depth[l] : -1e9F;
+    wanted[l] = search.lit[l] & search.inside[l];
+  }
+  found.nearness.fill(0.0F);
+  found.taps.fill(0.0F);
+  if (!any(wanted)) return;
+  const int taps = static_cast<int>(frame.shadow_taps[0]);
+  add_taps<see_through>(search.taps, lattice(taps), taps, search.reach_x, search.reach_y, slack_of(at).search,
+                        wanted, found.nearness, found.taps);
+}
+
+template <bool see_through>
+LAGOMORPH_INLINE void shadow_of(const FrameBlock& frame, const DepthMaps& maps, int number,
+                                const Receivers& at, const Blockers& found, Shadow& shadow) {
+  shadow.blocked.fill(0.0F);
+  shadow.share.fill(0.0F);
+  alignas(64) std::array<int, lanes> wanted;
+  for (Index l = 0; l < all; ++l) wanted[l] = static_cast<int>(found.taps[l] > 0.0F);
+  if (!any(wanted)) return;
+  Search search;
+  look_from_light<see_through>(frame, maps, number, at, search);
+  const LightTaps& t = search.taps;
+  const int taps = static_cast<int>(frame.shadow_taps[1]);
+  alignas(64) Lanes spread_x, spread_y, sum, blocked;
+  for (Index l = 0; l < all; ++l) {
+    const float nearer = found.nearness[l] / std::max(found.taps[l], 1.0F / 1024.0F) - t.reciprocal[l];
+    spread_x[l] = std::max(t.half_x * nearer, t.least_x);
+    spread_y[l] = std::max(t.half_y * nearer, t.least_y);
+    const float pixels = std::min(spread_x[l], spread_y[l]) * search.distance[l] / at.footprint[l];
+    shadow.share[l] = std::min(std::max(0.5F * pixels - 0.5F, 0.0F), 1.0F);
+  }
+  add_taps<see_through>(t, lattice(taps), taps, spread_x, spread_y, slack_of(at).filter, wanted, sum,
+                        blocked);
+  for (Index l = 0; l < all; ++l) shadow.blocked[l] = blocked[l] / static_cast<float>(taps);
+}
+
+}  // namespace
+
+LAGOMORPH_RENDER_SIMD void find_blockers(const FrameBlock& frame, const DepthMaps& maps, int light,
+                                         const Receivers& at, Blockers& found) {
+  maps.see_through ? blockers_of<true>(frame, maps, light, at, found)
+                   : blockers_of<false>(frame, maps, light, at, found);
+}
+
+LAGOMORPH_RENDER_SIMD void filter_shadow(const FrameBlock& frame, const DepthMaps& maps, int light,
+                                         const Receivers& at, const Blockers& found, Shadow& shadow) {
+  maps.see_through ? shadow_of<true>(frame, maps, light, at, found, shadow)
+                   : shadow_of<false>(frame, maps, light, at, found, shadow);
+}
+
+}  // namespace lagomorph::render::raster

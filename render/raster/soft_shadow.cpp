@@ -1,0 +1,126 @@
+#include "render/raster/soft_shadow.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "render/raster/light_visibility.h"
+#include "render/simd.h"
+
+namespace lagomorph::render::raster {
+namespace {
+
+/// A value a pixel, with a border of one.
+class Plane {
+public:
+  Plane(int width, int height, float value)
+      : stride_(static_cast<std::size_t>(width) + 2),
+        values_(stride_ * (static_cast<std::size_t>(height) + 2), value) {}
+
+  float* row(int y) { return values_.data() + stride_ * static_cast<std::size_t>(y + 1) + 1; }
+  const float* row(int y) const { return values_.data() + stride_ * static_cast<std::size_t>(y + 1) + 1; }
+  void put(int x, int y, const Lanes& from) {
+    for (int lane = 0; lane < lanes; ++lane)
+      row(y + raster::row(lane))[x + column(lane)] = from[static_cast<std::size_t>(lane)];
+  }
+  void get(int x, int y, Lanes& to) const {
+    for (int lane = 0; lane < lanes; ++lane)
+      to[static_cast<std::size_t>(lane)] = row(y + raster::row(lane))[x + column(lane)];
+  }
+
+private:
+  std::size_t stride_;
+  std::vector<float> values_;
+};
+
+/// Of rows y - 1, y and y + 1.
+struct Rows {
+  std::array<const float*, 3> of;
+  Rows(const Plane& plane, int y) : of{plane.row(y - 1), plane.row(y), plane.row(y + 1)} {}
+};
+
+/// Weighted sums of two values over pixels of the same surface, along a row.
+LAGOMORPH_RENDER_SIMD void add_neighbours(const Rows& depth, const float* tolerance, const Rows& a,
+                                          const Rows& b, std::ptrdiff_t width, float* sum_a, float* sum_b) {
+  constexpr std::array<float, 3> weights = {1.0F, 2.0F, 1.0F};
+  for (std::ptrdiff_t x = 0; x < width; ++x) sum_a[x] = sum_b[x] = 0.0F;
+  for (std::size_t j = 0; j < 3; ++j) {
+    for (std::ptrdiff_t i = -1; i <= 1; ++i) {
+      const float weight = weights[j] * weights[static_cast<std::size_t>(i + 1)];
+      const float *other = depth.of[j] + i, *here = depth.of[1], *of_a = a.of[j] + i, *of_b = b.of[j] + i;
+      for (std::ptrdiff_t x = 0; x < width; ++x) {
+        const float part = std::abs(other[x] - here[x]) < tolerance[x] ? weight : 0.0F;
+        sum_a[x] += part * of_a[x];
+        sum_b[x] += part * of_b[x];
+      }
+    }
+  }
+}
+
+constexpr float unlike_all = -3e9F;
+
+}  // namespace
+
+void ReceiverBlocks::resize(int block_columns, int block_rows) {
+  columns = block_columns, rows = block_rows;
+  const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  blocks.resize(count);
+  empty.assign(count, 1);
+}
+
+void soft_shadow(const FrameBlock& frame, const DepthMaps& maps, int light, const ReceiverBlocks& at,
+                 std::vector<float>& seen) {
+  const int width = at.width(), height = at.height();
+  Plane depth(width, height, unlike_all), tolerance(width, height, 0.0F), nearness(width, height, 0.0F),
+      taps(width, height, 0.0F);
+  bool any_blocked = false;
+  const auto for_blocks_at = [&](const auto& block) {
+    for (int k = 0; k < at.rows * at.columns; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      if (at.empty[i] == 0) block(k % at.columns * block_width, k / at.columns * block_height, at.blocks[i]);
+    }
+  };
+  for_blocks_at([&](int x, int y, const Receivers& r) {
+    Blockers found;
+    find_blockers(frame, maps, light, r, found);
+    Lanes reach;
+    std::transform(r.footprint.begin(), r.footprint.end(), reach.begin(), [](float f) { return 10.0F * f; });
+    depth.put(x, y, found.depth);
+    tolerance.put(x, y, reach);
+    nearness.put(x, y, found.nearness);
+    taps.put(x, y, found.taps);
+    any_blocked |= std::any_of(found.taps.begin(), found.taps.end(), [](float t) { return t > 0.0F; });
+  });
+  seen.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 1.0F);
+  if (!any_blocked) return;
+  Plane shared_nearness(width, height, 0.0F), shared_taps(width, height, 0.0F);
+  for (int y = 0; y < height; ++y) {
+    add_neighbours({depth, y}, tolerance.row(y), {nearness, y}, {taps, y}, width, shared_nearness.row(y),
+                   shared_taps.row(y));
+  }
+  Plane blocked(width, height, 0.0F), share(width, height, 0.0F);
+  for_blocks_at([&](int x, int y, const Receivers& r) {
+    Blockers found;
+    shared_nearness.get(x, y, found.nearness);
+    shared_taps.get(x, y, found.taps);
+    Shadow shadow;
+    filter_shadow(frame, maps, light, r, found, shadow);
+    blocked.put(x, y, shadow.blocked);
+    share.put(x, y, shadow.share);
+  });
+  const Plane one(width, height, 1.0F);
+  std::vector<float> sum(static_cast<std::size_t>(width)), count(sum.size());
+  for (int y = 0; y < height; ++y) {
+    add_neighbours({depth, y}, tolerance.row(y), {blocked, y}, {one, y}, width, sum.data(), count.data());
+    for (int x = 0; x < width; ++x) {
+      const auto i = static_cast<std::size_t>(x);
+      const float alone = blocked.row(y)[x];
+      const float mean = count[i] > 0.0F ? sum[i] / count[i] : alone;
+      seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + i] =
+          1.0F - (alone + share.row(y)[x] * (mean - alone));
+    }
+  }
+}
+
+}  // namespace lagomorph::render::raster
