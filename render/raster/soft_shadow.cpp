@@ -40,22 +40,44 @@ struct Rows {
   Rows(const Plane& plane, int y) : of{plane.row(y - 1), plane.row(y), plane.row(y + 1)} {}
 };
 
-/// Weighted sums of two values over pixels of the same surface, along a row.
+/// Weighted sums of two values over pixels of the same surface, of pixels [first, last) of a row.
 LAGOMORPH_RENDER_SIMD void add_neighbours(const Rows& depth, const float* tolerance, const Rows& a,
-                                          const Rows& b, std::ptrdiff_t width, float* sum_a, float* sum_b) {
+                                          const Rows& b, std::ptrdiff_t first, std::ptrdiff_t last,
+                                          float* sum_a, float* sum_b) {
   constexpr std::array<float, 3> weights = {1.0F, 2.0F, 1.0F};
-  for (std::ptrdiff_t x = 0; x < width; ++x) sum_a[x] = sum_b[x] = 0.0F;
-  for (std::size_t j = 0; j < 3; ++j) {
-    for (std::ptrdiff_t i = -1; i <= 1; ++i) {
-      const float weight = weights[j] * weights[static_cast<std::size_t>(i + 1)];
-      const float *other = depth.of[j] + i, *here = depth.of[1], *of_a = a.of[j] + i, *of_b = b.of[j] + i;
-      for (std::ptrdiff_t x = 0; x < width; ++x) {
-        const float part = std::abs(other[x] - here[x]) < tolerance[x] ? weight : 0.0F;
-        sum_a[x] += part * of_a[x];
-        sum_b[x] += part * of_b[x];
+  const Rows d = depth, of_a = a, of_b = b;
+  _Pragma("GCC ivdep") for (std::ptrdiff_t x = first; x < last; ++x) {
+    const float here = d.of[1][x], reach = tolerance[x];
+    float total_a = 0.0F, total_b = 0.0F;
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::ptrdiff_t at = x + static_cast<std::ptrdiff_t>(i) - 1;
+        const float part = std::abs(d.of[j][at] - here) < reach ? weights[j] * weights[i] : 0.0F;
+        total_a += part * of_a.of[j][at];
+        total_b += part * of_b.of[j][at];
       }
     }
+    sum_a[x] = total_a;
+    sum_b[x] = total_b;
   }
+}
+
+/// Pixels [first, last) of each row that are in blocks with something in them; none where last is 0.
+struct Span {
+  int first = 0, last = 0;
+};
+std::vector<Span> spans_of(const ReceiverBlocks& at) {
+  std::vector<Span> spans(static_cast<std::size_t>(at.height()));
+  for (int k = 0; k < at.rows * at.columns; ++k) {
+    if (at.empty[static_cast<std::size_t>(k)] != 0) continue;
+    const int x = k % at.columns * block_width, y = k / at.columns * block_height;
+    for (int row = y; row < y + block_height; ++row) {
+      Span& span = spans[static_cast<std::size_t>(row)];
+      if (span.last == 0) span.first = x;
+      span.last = x + block_width;
+    }
+  }
+  return spans;
 }
 
 constexpr float unlike_all = -3e9F;
@@ -94,10 +116,12 @@ void soft_shadow(const FrameBlock& frame, const DepthMaps& maps, int light, cons
   });
   seen.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 1.0F);
   if (!any_blocked) return;
+  const std::vector<Span> spans = spans_of(at);
   Plane shared_nearness(width, height, 0.0F), shared_taps(width, height, 0.0F);
   for (int y = 0; y < height; ++y) {
-    add_neighbours({depth, y}, tolerance.row(y), {nearness, y}, {taps, y}, width, shared_nearness.row(y),
-                   shared_taps.row(y));
+    const Span span = spans[static_cast<std::size_t>(y)];
+    add_neighbours({depth, y}, tolerance.row(y), {nearness, y}, {taps, y}, span.first, span.last,
+                   shared_nearness.row(y), shared_taps.row(y));
   }
   Plane blocked(width, height, 0.0F), share(width, height, 0.0F);
   for_blocks_at([&](int x, int y, const Receivers& r) {
@@ -112,8 +136,10 @@ void soft_shadow(const FrameBlock& frame, const DepthMaps& maps, int light, cons
   const Plane one(width, height, 1.0F);
   std::vector<float> sum(static_cast<std::size_t>(width)), count(sum.size());
   for (int y = 0; y < height; ++y) {
-    add_neighbours({depth, y}, tolerance.row(y), {blocked, y}, {one, y}, width, sum.data(), count.data());
-    for (int x = 0; x < width; ++x) {
+    const Span span = spans[static_cast<std::size_t>(y)];
+    add_neighbours({depth, y}, tolerance.row(y), {blocked, y}, {one, y}, span.first, span.last, sum.data(),
+                   count.data());
+    for (int x = span.first; x < span.last; ++x) {
       const auto i = static_cast<std::size_t>(x);
       const float alone = blocked.row(y)[x];
       const float mean = count[i] > 0.0F ? sum[i] / count[i] : alone;
