@@ -20,7 +20,7 @@ struct DepthMaps {
   std::vector<DepthMap> lights;  // one a light
   int sky_size = 0;
   std::vector<DepthMap> sky;  // one a direction; none: there are no meshes
-  bool see_through = false;   // some meshes are drawn as dots, see see_through_depth_map_fragment
+  bool see_through = false;   // some meshes are drawn as dots, see Caster
   bool sky_is_map = false;
 };
 

@@ -4,13 +4,10 @@
 #include <bit>
 #include <cmath>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include "render/ground_texture.h"
+#include "render/raster/caster_depths.h"
 #include "render/raster/light_view.h"
 #include "render/raster/shaders/shaders.h"
-#include "render/raster/sky_depths.h"
 #include "render/raster/sky_light.h"
 #include "render/raster/sky_model.h"
 #include "render/raster/stand_ins.h"
@@ -30,17 +27,6 @@ void sampling(GLenum target, GLenum minify, GLenum magnify) {
   glTexParameteri(target, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(magnify));
   glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-}
-
-/// A square of depths.
-void allocate_depth(const Framebuffer& target, const Renderbuffer& depths, int size) {
-  glBindFramebuffer(GL_FRAMEBUFFER, target.id());
-  glDrawBuffer(GL_NONE);
-  glReadBuffer(GL_NONE);
-  glBindRenderbuffer(GL_RENDERBUFFER, depths.id());
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, size, size);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depths.id());
-  check_framebuffer("depth map");
 }
 
 /// Of two or four floats an entry.
@@ -103,12 +89,9 @@ Sphere bounding_sphere(std::span<const std::vector<Vec3>> positions, const Eigen
 }  // namespace
 
 LightMaps::LightMaps(const RasterSettings& settings)
-    : settings_(settings),
-      depth_program_("depth map", {shaders::depth_map_vertex}, {shaders::depth_map_fragment}),
-      ground_seen_(GL_TEXTURE1, ground_map_size, ground_map_size) {
+    : settings_(settings), ground_seen_(GL_TEXTURE1, ground_map_size, ground_map_size) {
   allocate_table(sky_table_, sky_table_size, 1, sky_irradiance_table(sky_table_size));
   allocate_table(coat_table_, coat_table_size, coat_table_size, coat_albedo_table(coat_table_size));
-  allocate_depth(light_target_, light_depths_, settings_.shadow_map);
   const int levels = static_cast<int>(std::log2(ground_map_size)) + 1;
   for (const Texture* texture : {&ground_ambient_, &ground_bounce_}) {
     glBindTexture(GL_TEXTURE_2D, texture->id());
@@ -147,11 +130,6 @@ void LightMaps::set_scene(const RenderScene& scene, const LightFeatures& feature
     ground_program_.emplace("ground map", Parts{shaders::full_screen_vertex},
                             Parts{features.definitions().c_str(), shaders::frame, shaders::brdf, shaders::sky,
                                   shaders::ground_color, shaders::ground_map_fragment});
-  }
-  if (features.see_through && !see_through_depth_program_) {
-    using Parts = Program::Parts;
-    see_through_depth_program_.emplace("depth map of dots", Parts{shaders::depth_map_vertex},
-                                       Parts{shaders::see_through_depth_map_fragment});
   }
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const AreaLight& light = scene.lights[i];
@@ -221,82 +199,29 @@ void LightMaps::fit(const RenderScene& scene, std::span<const std::vector<Vec3>>
                           0.5F - scale * sphere.center.x(), 0.5F - scale * sphere.center.z());
 }
 
-void LightMaps::draw_depth(const Mat4& clip_from_world, std::span<const MeshBuffers> meshes,
-                           DepthMap& depths) {
-  const int size = settings_.shadow_map;
-  bind(light_target_, size, size);
-  glClear(GL_DEPTH_BUFFER_BIT);
-  depth_program_.use();
-  glUniformMatrix4fv(depth_program_.location("clip_from_world"), 1, GL_FALSE, clip_from_world.data());
-  for (const MeshBuffers& mesh : meshes) {
-    if (mesh.see_through()) continue;
-    // The first surface on the light's way is a front face; where one is inverted, the next one still stops
-    // the light.
-    mesh.closed() ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
-    mesh.draw();
-  }
-  if (features_.see_through) draw_dots(clip_from_world, meshes);
-  read_.resize(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
-  glReadPixels(0, 0, size, size, GL_DEPTH_COMPONENT, GL_FLOAT, read_.data());
-  depths.resize(read_.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, read_.size(), 65536), [&](const auto& range) {
-    std::transform(read_.begin() + static_cast<std::ptrdiff_t>(range.begin()),
-                   read_.begin() + static_cast<std::ptrdiff_t>(range.end()),
-                   depths.begin() + static_cast<std::ptrdiff_t>(range.begin()), [](float d) {
-                     constexpr float most = no_depth - 1;
-                     const float step = std::clamp(d * static_cast<float>(no_depth) + 0.5F, 0.0F, most);
-                     return d < 1.0F ? static_cast<std::uint16_t>(step) : no_depth;
-                   });
-  });
-}
-
-void LightMaps::draw_dots(const Mat4& clip_from_world, std::span<const MeshBuffers> meshes) {
-  see_through_depth_program_->use();
-  const auto location = [&](const char* name) { return see_through_depth_program_->location(name); };
-  glUniformMatrix4fv(location("clip_from_world"), 1, GL_FALSE, clip_from_world.data());
-  glDisable(GL_CULL_FACE);
-  for (const MeshBuffers& mesh : meshes) {
-    if (!mesh.see_through()) continue;
-    glUniform1f(location("opacity"), mesh.material().opacity);
-    glUniform1i(location("body"), mesh.body_id());
-    mesh.draw();
-  }
-}
-
-void LightMaps::draw_sky(std::span<const MeshBuffers> meshes, std::span<const std::vector<Vec3>> positions,
-                         const FrameBlock& block) {
-  if (!has_meshes_) {
-    depths_.sky.clear();
-    return;
-  }
-  std::vector<SkyCaster> casters;
+void LightMaps::draw(std::span<const MeshBuffers> meshes, std::span<const std::vector<Vec3>> positions,
+                     const FrameBlock& block) {
+  depths_.light_size = settings_.shadow_map;
+  depths_.sky_size = sky_map_size;
+  depths_.see_through = features_.see_through;
+  depths_.sky_is_map = features_.sky_map;
+  std::vector<Caster> casters;
   casters.reserve(meshes.size());
   for (std::size_t k = 0; k < meshes.size(); ++k) {
     const MeshBuffers& mesh = meshes[k];
     casters.push_back(
         {positions[k], mesh.triangles(), mesh.closed(), mesh.material().opacity, mesh.body_id()});
   }
-  draw_sky_depths(block, casters, sky_map_size, depths_.sky);
-}
-
-void LightMaps::draw(std::span<const MeshBuffers> meshes, std::span<const std::vector<Vec3>> positions,
-                     const FrameBlock& block) {
-  depths_.light_size = settings_.shadow_map;
-  depths_.lights.resize(light_views_.size());
-  depths_.sky_size = sky_map_size;
-  depths_.see_through = features_.see_through;
-  depths_.sky_is_map = features_.sky_map;
-  glEnable(GL_DEPTH_TEST);
-  glDisable(GL_BLEND);
-  for (std::size_t i = 0; i < light_views_.size(); ++i)
-    draw_depth(light_views_[i], meshes, depths_.lights[i]);
-  draw_sky(meshes, positions, block);
+  draw_light_depths(light_views_, casters, settings_.shadow_map, depths_.lights);
+  depths_.sky.clear();
+  if (has_meshes_) draw_sky_depths(block, casters, sky_map_size, depths_.sky);
   if (!ground_) return;
   light_ground_map(block, depths_, ground_lit_);
   ground_seen_.take(ground_lit_);
   bind(ground_target_, ground_map_size, ground_map_size);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
   ground_program_->use();
   glBindVertexArray(no_attributes_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -43,15 +43,9 @@ public:
 
 private:
   void set_sky_map(const RenderScene&, FrameBlock&);
-  void draw_depth(const Mat4& clip_from_world, std::span<const MeshBuffers> meshes, DepthMap&);
-  void draw_sky(std::span<const MeshBuffers> meshes, std::span<const std::vector<Vec3>> positions,
-                const FrameBlock&);
-  void draw_dots(const Mat4& clip_from_world, std::span<const MeshBuffers> meshes);
 
   RasterSettings settings_;
-  Program depth_program_;
-  std::optional<Program> see_through_depth_program_;  // compiled when it is needed
-  std::optional<Program> ground_program_;             // for features_
+  std::optional<Program> ground_program_;  // for features_
   LightFeatures features_;
   Texture sky_table_, coat_table_, ground_ambient_, ground_bounce_;
   LitTexture ground_seen_;
@@ -60,14 +54,12 @@ private:
     Texture irradiance_above, radiance_below, lobes_above, lobes_below, picture;
   };
   std::optional<SkyTextures> sky_textures_;
-  Framebuffer light_target_, ground_target_;
-  Renderbuffer light_depths_;
+  Framebuffer ground_target_;
   VertexArray no_attributes_;
   std::vector<Mat4> light_views_;
   std::vector<CasterGrid> casters_;
   DepthMaps depths_;
   LitPixels ground_lit_;
-  std::vector<float> read_;  // of the map at work
   bool has_meshes_ = false;
   bool ground_ = false;
 };

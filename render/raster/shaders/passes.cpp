@@ -43,12 +43,6 @@ void main() {
 }
 )";
 
-const char* const depth_map_vertex = R"(
-layout(location = 0) in vec3 position;
-uniform mat4 clip_from_world;
-void main() { gl_Position = clip_from_world * vec4(position, 1.0); }
-)";
-
 const char* const emitter_vertex = R"(
 uniform int light;
 out vec3 world;
@@ -339,27 +333,6 @@ void main() {
   if (before_ground < mean.count)
     color.rgb += (mean.count - before_ground) * ground_fade(on_ground) * (lit - background_radiance(direction));
   color = vec4(color.rgb, layer == 0 ? covered : 0.0) / float(SAMPLES);
-}
-)";
-
-const char* const depth_map_fragment = R"(
-void main() {}
-)";
-
-// Dots as dense as the surface is opaque [Fuchs et al. 1985; Enderton et al. 2010], which the filters of the
-// shadows even out: a plane of points over the texels, another one for each sheet of each body, so that one
-// behind the other they hide as if independent. The rows are of the generalized golden ratio [Roberts 2018]
-// and its like.
-const char* const see_through_depth_map_fragment = R"(
-uniform float opacity;
-uniform int body;
-void main() {
-  int sheet = 2 * body + (gl_FrontFacing ? 0 : 1);
-  const vec2 steps[4] = vec2[4](vec2(0.7548776662, 0.5698402910), vec2(0.4301597090, 0.7548776662),
-                                vec2(0.3819660113, 0.2360679775), vec2(0.1458980338, 0.6180339887));
-  vec2 s = steps[sheet % 4];
-  float shift = 0.6180339887 * float(sheet / 4);
-  if (fract(dot(floor(gl_FragCoord.xy), s) + shift) >= opacity) discard;
 }
 )";
 

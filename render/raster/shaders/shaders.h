@@ -15,7 +15,6 @@ extern const char* const layer_point;  // the mean of one of those
 extern const char* const full_screen_vertex;
 extern const char* const layer_vertex;
 extern const char* const mesh_vertex;
-extern const char* const depth_map_vertex;
 extern const char* const ground_vertex;
 extern const char* const emitter_vertex;
 
@@ -28,8 +27,6 @@ extern const char* const surface_fragment;
 extern const char* const layer_fragment;
 extern const char* const ground_cover_fragment;
 extern const char* const ground_map_fragment;
-extern const char* const depth_map_fragment;
-extern const char* const see_through_depth_map_fragment;
 extern const char* const composite_fragment;
 extern const char* const mesh_depth_fragment;
 extern const char* const mesh_number_fragment;

@@ -1,0 +1,251 @@
+#include "render/raster/caster_depths.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <tbb/blocked_range2d.h>
+#include <tbb/parallel_for.h>
+
+#include "render/simd.h"
+
+namespace lagomorph::render::raster {
+namespace {
+
+/// x and y in texels, z the depth in steps of a DepthMap.
+struct MapPoint {
+  float x, y, z;
+};
+
+/// Rows [first, last) of a square map.
+struct Band {
+  std::uint16_t* map;
+  int size, first, last;
+};
+
+/// Dots as dense as the surface is opaque [Fuchs et al. 1985; Enderton et al. 2010], which the filters of the
+/// shadows even out: a plane of points over the texels, another one for each sheet of each body, so that one
+/// behind the other they hide as if independent. The rows are of the generalized golden ratio [Roberts 2018]
+/// and its like.
+struct Dots {
+  float step_x, step_y, shift, opacity;
+
+  Dots(const Caster& mesh, bool front) : opacity(mesh.opacity) {
+    constexpr std::array<std::array<float, 2>, 4> steps = {{{0.7548776662F, 0.5698402910F},
+                                                            {0.4301597090F, 0.7548776662F},
+                                                            {0.3819660113F, 0.2360679775F},
+                                                            {0.1458980338F, 0.6180339887F}}};
+    const int sheet = 2 * mesh.body + (front ? 0 : 1);
+    const std::array<float, 2>& s = steps[static_cast<std::size_t>(sheet % 4)];
+    step_x = s[0];
+    step_y = s[1];
+    shift = 0.6180339887F * static_cast<float>(sheet / 4);
+  }
+  bool at(int x, int y) const {
+    const float along = static_cast<float>(x) * step_x + static_cast<float>(y) * step_y + shift;
+    return along - std::floor(along) < opacity;
+  }
+};
+
+/// Twice the area on the inner side of an edge, from (x, y) on: value + dx * (x' - x); >= least is inside.
+struct Edge {
+  float x, y, along_x, along_y, least;
+
+  Edge(const MapPoint& from, const MapPoint& to)
+      : x(from.x), y(from.y), along_x(to.x - from.x), along_y(to.y - from.y) {
+    // 1/512 of a texel further out than it is, so that rounding leaves no gap between neighbours.
+    least = (-1.0F / 512.0F) * (std::abs(along_x) + std::abs(along_y));
+  }
+  LAGOMORPH_INLINE float at(float px, float py) const { return along_x * (py - y) - along_y * (px - x); }
+};
+
+/// Depths over the plane of a triangle.
+struct DepthPlane {
+  float x, y, z, by_x, by_y, low, high;
+
+  DepthPlane(const MapPoint& a, const MapPoint& b, const MapPoint& c, float area)
+      : x(a.x),
+        y(a.y),
+        z(a.z),
+        by_x(((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) / area),
+        by_y(((c.z - a.z) * (b.x - a.x) - (b.z - a.z) * (c.x - a.x)) / area),
+        low(std::min({a.z, b.z, c.z})),
+        high(std::max({a.z, b.z, c.z})) {
+    low = std::clamp(low, 0.0F, static_cast<float>(no_depth - 1));
+    high = std::clamp(high, 0.0F, static_cast<float>(no_depth - 1));
+  }
+  LAGOMORPH_INLINE std::uint16_t at(float px, float py) const {
+    const float depth = z + by_x * (px - x) + by_y * (py - y);
+    return static_cast<std::uint16_t>(static_cast<std::int32_t>(std::min(std::max(depth, low), high) + 0.5F));
+  }
+};
+
+constexpr int texels_at_once = 16;
+
+template <bool dotted>
+LAGOMORPH_INLINE void draw_triangle(const Caster& mesh, MapPoint a, MapPoint b, const MapPoint& c,
+                                    const Band& band) {
+  float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  const bool front = area > 0.0F;
+  if (!(area != 0.0F) || (!front && mesh.closed && !dotted)) return;
+  if (!front) {
+    std::swap(a, b);
+    area = -area;
+  }
+  // Texels whose middles may be inside.
+  const auto first = [](float low, int least) {
+    return std::max(static_cast<int>(std::ceil(std::max(low, -1.0F) - 0.5F)), least);
+  };
+  const auto last = [](float high, int end) {
+    return std::min(static_cast<int>(std::floor(std::min(high, static_cast<float>(end) + 1.0F) - 0.5F)),
+                    end - 1);
+  };
+  const int y0 = first(std::min({a.y, b.y, c.y}), band.first);
+  const int y1 = last(std::max({a.y, b.y, c.y}), band.last);
+  const int x0 = first(std::min({a.x, b.x, c.x}), 0), x1 = last(std::max({a.x, b.x, c.x}), band.size);
+  if (y0 > y1 || x0 > x1) return;
+  const Edge of_a(b, c), of_b(c, a), of_c(a, b);
+  const DepthPlane plane(a, b, c, area);
+  const Dots dots(mesh, front);
+  const auto put = [&](std::uint16_t* row, int x, float py, int y) {
+    const float px = static_cast<float>(x) + 0.5F;
+    const int inside = static_cast<int>(of_a.at(px, py) >= of_a.least) &
+                       static_cast<int>(of_b.at(px, py) >= of_b.least) &
+                       static_cast<int>(of_c.at(px, py) >= of_c.least);
+    const std::uint16_t depth = plane.at(px, py);
+    if constexpr (dotted) {
+      if (inside == 0 || !dots.at(x, y)) return;
+      row[x] = std::min(row[x], depth);
+    } else {
+      const std::uint16_t there = row[x];
+      const std::uint16_t nearer = std::min(there, depth);
+      row[x] = inside != 0 ? nearer : there;
+    }
+  };
+  for (int y = y0; y <= y1; ++y) {
+    const float py = static_cast<float>(y) + 0.5F;
+    std::uint16_t* row = band.map + static_cast<std::size_t>(y) * static_cast<std::size_t>(band.size);
+    if (dotted || x1 - x0 < texels_at_once / 4) {
+      for (int x = x0; x <= x1; ++x) put(row, x, py, y);
+    } else {
+      for (int block = x0 / texels_at_once * texels_at_once; block <= x1; block += texels_at_once) {
+        for (int l = 0; l < texels_at_once; ++l) put(row, block + l, py, y);
+      }
+    }
+  }
+}
+
+LAGOMORPH_RENDER_SIMD void draw_mesh(const Caster& mesh, std::span<const MapPoint> points, const Band& band) {
+  if (mesh.opacity < 1.0F) {
+    for (const Triangle& t : mesh.triangles)
+      draw_triangle<true>(mesh, points[t[0]], points[t[1]], points[t[2]], band);
+  } else {
+    for (const Triangle& t : mesh.triangles)
+      draw_triangle<false>(mesh, points[t[0]], points[t[1]], points[t[2]], band);
+  }
+}
+
+/// A mesh in front of a light: its triangles that are in front as a whole, and parts of the others.
+struct SeenCaster {
+  Caster mesh;
+  std::vector<Triangle> triangles;  // of points, in place of the mesh's where some are cut; else empty
+  std::vector<MapPoint> points;
+};
+
+SeenCaster seen_from_light(const Caster& mesh, const Mat4& clip_from_world, int size) {
+  SeenCaster seen{mesh, {}, {}};
+  const float half = 0.5F * static_cast<float>(size);
+  const auto project = [half](const Vec4& p) {
+    const float to = 1.0F / p.w();
+    return MapPoint{(p.x() * to + 1.0F) * half, (p.y() * to + 1.0F) * half,
+                    (p.z() * to + 1.0F) * (0.5F * static_cast<float>(no_depth))};
+  };
+  const auto inside = [](const Vec4& p) { return p.z() + p.w() > 0.0F && p.w() > 0.0F; };
+  std::vector<Vec4> clip;
+  clip.reserve(mesh.positions.size());
+  seen.points.reserve(mesh.positions.size());
+  bool all_inside = true;
+  for (const Vec3& p : mesh.positions) {
+    clip.push_back(clip_from_world.leftCols<3>() * p + clip_from_world.col(3));
+    const bool before = inside(clip.back());
+    all_inside = all_inside && before;
+    seen.points.push_back(before ? project(clip.back()) : MapPoint{0.0F, 0.0F, 0.0F});
+  }
+  if (all_inside) return seen;
+  seen.triangles.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    const std::array<Vec4, 3> corners = {clip[t[0]], clip[t[1]], clip[t[2]]};
+    if (std::all_of(corners.begin(), corners.end(), inside)) {
+      seen.triangles.push_back(t);
+      continue;
+    }
+    // Cut along z = -w [Sutherland and Hodgman 1974].
+    const auto first = static_cast<std::uint32_t>(seen.points.size());
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec4& from = corners[k];
+      const Vec4& to = corners[(k + 1) % 3];
+      if (inside(from)) seen.points.push_back(project(from));
+      if (inside(from) == inside(to)) continue;
+      const float a = from.z() + from.w(), b = to.z() + to.w();
+      seen.points.push_back(project(from + a / (a - b) * (to - from)));
+    }
+    for (auto k = first + 2; k < seen.points.size(); ++k) seen.triangles.push_back({first, k - 1, k});
+  }
+  if (seen.triangles.empty()) seen.points.clear();
+  return seen;
+}
+
+}  // namespace
+
+void draw_sky_depths(const FrameBlock& frame, std::span<const Caster> meshes, int size,
+                     std::vector<DepthMap>& maps) {
+  maps.resize(frame.sky.size());
+  tbb::parallel_for(std::size_t{0}, maps.size(), [&](std::size_t i) {
+    const SkyDirectionBlock& sky = frame.sky[i];
+    DepthMap& map = maps[i];
+    map.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), no_depth);
+    const float half = 0.5F * static_cast<float>(size);
+    const Vec3 x_axis = half * frame.sky_map[3] * sky.right.head<3>();
+    const Vec3 y_axis = half * frame.sky_map[3] * sky.up.head<3>();
+    const Vec3 z_axis = -0.5F * static_cast<float>(no_depth) * frame.sky_map[3] * sky.direction.head<3>();
+    const Vec3 middle = frame.sky_map.head<3>();
+    std::vector<MapPoint> points;
+    for (const Caster& mesh : meshes) {
+      points.clear();
+      points.reserve(mesh.positions.size());
+      for (const Vec3& p : mesh.positions) {
+        const Vec3 d = p - middle;
+        points.push_back({d.dot(x_axis) + half, d.dot(y_axis) + half,
+                          d.dot(z_axis) + 0.5F * static_cast<float>(no_depth)});
+      }
+      draw_mesh(mesh, points, {map.data(), size, 0, size});
+    }
+  });
+}
+
+void draw_light_depths(std::span<const Mat4> clip_from_world, std::span<const Caster> meshes, int size,
+                       std::vector<DepthMap>& maps) {
+  constexpr int bands = 8;
+  maps.resize(clip_from_world.size());
+  std::vector<SeenCaster> seen(clip_from_world.size() * meshes.size());
+  tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
+    seen[i] = seen_from_light(meshes[i % meshes.size()], clip_from_world[i / meshes.size()], size);
+  });
+  for (DepthMap& map : maps) map.resize(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
+  tbb::parallel_for(std::size_t{0}, bands * maps.size(), [&](std::size_t i) {
+    const std::size_t light = i / bands;
+    const int band = static_cast<int>(i % bands), rows = size / bands;
+    DepthMap& map = maps[light];
+    std::fill_n(map.begin() + static_cast<std::ptrdiff_t>(band) * rows * size,
+                static_cast<std::ptrdiff_t>(rows) * size, no_depth);
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+      SeenCaster& caster = seen[light * meshes.size() + k];
+      Caster mesh = caster.mesh;
+      if (!caster.triangles.empty()) mesh.triangles = caster.triangles;
+      if (!caster.points.empty())
+        draw_mesh(mesh, caster.points, {map.data(), size, band * rows, (band + 1) * rows});
+    }
+  });
+}
+
+}  // namespace lagomorph::render::raster
