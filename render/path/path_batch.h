@@ -16,7 +16,7 @@ struct PathTracer::Batch {
   GroundRows ground;
   Row3<> met;  // light of area lights that scattered rays meet
   Row<float> to_light;
-  Row3<> sky;
+  Row3<> behind;  // light of the sky, or the background, where the rays go
   SurfaceRows surfaces;
   std::vector<SurfaceRange> ranges;  // of surfaces of a material
   SurfaceRow<std::uint32_t> light;   // picked for each surface

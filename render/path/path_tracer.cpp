@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "render/path/microfacet.h"
 #include "render/path/path_batch.h"
@@ -155,23 +156,22 @@ void PathTracer::begin_paths(std::span<const PixelSample> of) {
   }
   const bool alike = camera_.lens_radius() <= 0.0F && shutter_cameras_.empty();
   if (alike) camera_rays(camera_.view_plane(), pairs, paths.rays);
-  for (std::size_t i = 0; i < of.size(); ++i) {
-    if (!alike) {
-      const Ray ray = shutter_cameras_.empty() ? camera_ray(camera_, pairs.u[i], pairs.v[i], samples_of(i))
-                                               : camera_ray(camera_at(shutter_cameras_, times_[i]),
-                                                            pairs.u[i], pairs.v[i], samples_of(i));
-      paths.rays.origin.set(i, f3(ray.origin));
-      paths.rays.direction.set(i, f3(ray.direction));
-    }
-    paths.throughput.set(i, {1.0F, 1.0F, 1.0F});
-    paths.bsdf_pdf[i] = 0.0F;
-    paths.sky_pdf[i] = 0.0F;
-    paths.least_pdf[i] = std::numeric_limits<float>::infinity();
-    paths.lane[i] = static_cast<std::uint32_t>(i);
-    paths.inside[i] = nullptr;
-    paths.clear[i] = 0;
-    paths.compressed[i] = 1.0F;
+  for (std::size_t i = 0; !alike && i < of.size(); ++i) {
+    const Ray ray = shutter_cameras_.empty() ? camera_ray(camera_, pairs.u[i], pairs.v[i], samples_of(i))
+                                             : camera_ray(camera_at(shutter_cameras_, times_[i]), pairs.u[i],
+                                                          pairs.v[i], samples_of(i));
+    paths.rays.origin.set(i, f3(ray.origin));
+    paths.rays.direction.set(i, f3(ray.direction));
   }
+  const auto fill = [&](auto& row, auto value) { std::fill_n(row.begin(), of.size(), value); };
+  for (Row<float>* row : {&paths.throughput.x, &paths.throughput.y, &paths.throughput.z}) fill(*row, 1.0F);
+  fill(paths.bsdf_pdf, 0.0F);
+  fill(paths.sky_pdf, 0.0F);
+  fill(paths.least_pdf, std::numeric_limits<float>::infinity());
+  std::iota(paths.lane.begin(), paths.lane.begin() + static_cast<std::ptrdiff_t>(of.size()), 0U);
+  fill(paths.inside, static_cast<const Absorption*>(nullptr));
+  fill(paths.clear, 0U);
+  fill(paths.compressed, 1.0F);
 }
 
 Ray PathTracer::camera_ray(const Camera& camera, float px, float py, const PathSamples& samples) const {
@@ -194,7 +194,7 @@ void PathTracer::trace_batch(std::uint32_t depth) {
   if (shading_.see_through) pass_through(depth);
   meet_meshes();
   meet_ground(geometry_.ground(), rays, batch_->ground);
-  if (depth > 0) meet_lights(depth - 1);
+  depth > 0 ? meet_lights(depth - 1) : see_background();
   arrive(depth);
   leave_cloudy_insides();
   next_->rays.count = 0;
@@ -256,7 +256,7 @@ void PathTracer::meet_lights(std::uint32_t from) {
       b.met.set(i, b.met[i] + weight * f3(light.radiance()));
     }
   }
-  if (!shading_.sky.map) sky_behind(shading_.gradient(), rays, b.sky);
+  if (!shading_.sky.map) sky_behind(shading_.gradient(), rays, b.behind);
 }
 
 /// Ends the rays: light that they meet is added, surfaces are arrived at.
@@ -273,7 +273,11 @@ void PathTracer::arrive(std::uint32_t depth) {
     const std::uint32_t lane = paths.lane[i];
     Ahead ahead = look(i);
     if (depth == 0) {
-      if (!ahead.on_mesh || any_visible_) add_light(lane, seen_by_camera(paths.rays[i], ahead));
+      if (any_visible_) {
+        add_light(lane, seen_by_camera(i, ahead));
+      } else if (!ahead.on_mesh) {
+        add_light(lane, color((1.0F - ahead.opacity) * b.behind[i]));
+      }
     } else {
       const Color light = light_met(i, ahead);
       if (light.maxCoeff() > 0.0F) add_light(lane, color(paths.throughput[i]) * light);
@@ -308,10 +312,9 @@ void PathTracer::arrive(std::uint32_t depth) {
     std::size_t at = 0;
     if (on_ground) {
       at = s.count++;
-      const Vec3 point = geometry_.ground_point(paths.rays[i], distance);
-      s.origin.set(at, f3(point));
+      s.origin.set(at, b.ground.point[i]);
       s.arrival.set(at, paths.rays.direction[i]);
-      own = shading_.textured_ground(point);
+      own = shading_.textured_ground(vec3(b.ground.point[i]));
     } else {
       at = b.meeting[i];
       own = geometry_.color_at(b.hits[i], hit_of(i));
@@ -411,9 +414,28 @@ PathTracer::Ahead PathTracer::look(std::size_t path) const {
   return ahead;
 }
 
+/// What the camera sees where nothing is.
+void PathTracer::see_background() {
+  Batch& b = *batch_;
+  const RayRows& rays = paths_->rays;
+  if (shading_.background) {
+    const Color& color = *shading_.background;
+    std::fill_n(b.behind.x.begin(), rays.count, color.x());
+    std::fill_n(b.behind.y.begin(), rays.count, color.y());
+    std::fill_n(b.behind.z.begin(), rays.count, color.z());
+  } else if (!shading_.sky.map && shading_.suns.empty()) {
+    sky_behind(shading_.gradient(), rays, b.behind);
+  } else {
+    for (std::size_t i = 0; i < rays.count; ++i) {
+      if (b.hits[i].mesh == MeshHit::none) b.behind.set(i, f3(shading_.open_view(vec3(rays.direction[i]))));
+    }
+  }
+}
+
 /// What a camera ray sees besides surfaces: a visible light, which hides what is behind it, or the
 /// background.
-Color PathTracer::seen_by_camera(const Ray& ray, Ahead& ahead) const {
+Color PathTracer::seen_by_camera(std::size_t path, Ahead& ahead) const {
+  const Ray ray = paths_->rays[path];
   double nearest = ahead.t;
   Color light = Color::Zero();
   for (const RectangleLight& l : shading_.lights) {
@@ -433,7 +455,7 @@ Color PathTracer::seen_by_camera(const Ray& ray, Ahead& ahead) const {
   } else if (ahead.on_mesh) {
     return Color::Zero();
   } else {
-    light = shading_.open_view(ray.direction);
+    light = color(batch_->behind[path]);
   }
   return (1.0F - ahead.opacity) * light;
 }
@@ -447,7 +469,7 @@ Color PathTracer::light_met(std::size_t i, const Ahead& ahead) const {
   const Vec3 direction = vec3(paths.rays.direction[i]);
   const float sky_pdf = shading_.sky_sampler ? shading_.sky_sampler->pdf(direction) : paths.sky_pdf[i];
   const float weight = (1.0F - ahead.opacity) * power_heuristic(paths.bsdf_pdf[i], sky_pdf);
-  light += weight * (shading_.sky.map ? sky_radiance(shading_.sky, direction) : color(b.sky[i]));
+  light += weight * (shading_.sky.map ? sky_radiance(shading_.sky, direction) : color(b.behind[i]));
   for (std::size_t k = 0; k < shading_.suns.size(); ++k) {
     const SunLight& sun = shading_.suns[k];
     if (!sun.contains(direction)) continue;

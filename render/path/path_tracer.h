@@ -118,7 +118,8 @@ private:
   void see_surfaces(std::size_t on_meshes);
   TriangleHit hit_of(std::size_t path) const;
   Ahead look(std::size_t path) const;
-  Color seen_by_camera(const Ray&, Ahead&) const;
+  void see_background();
+  Color seen_by_camera(std::size_t path, Ahead&) const;
   Color light_met(std::size_t path, const Ahead&) const;
   void keep_first_hit(std::uint32_t lane, const SurfacePoint&, const Color& albedo, float depth,
                       float opacity);

@@ -14,8 +14,9 @@ namespace lagomorph::render::path {
 /// Paths that are traced in step.
 inline constexpr std::size_t batch_size = 512;
 
+/// A cache line longer than n: rows of a power of two would all meet in the same few lines of the cache.
 template <class T, std::size_t n = batch_size>
-struct alignas(64) Row : std::array<T, n> {};
+struct alignas(64) Row : std::array<T, n + 64 / sizeof(T)> {};
 
 template <std::size_t n = batch_size>
 struct Row3 {

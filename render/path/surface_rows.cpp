@@ -42,6 +42,7 @@ LAGOMORPH_RENDER_SIMD void meet_ground(const GroundDisc& of, const RayRows& rays
   LAGOMORPH_ROWS
   for (std::size_t i = 0; i < count; ++i) {
     const F3 point = point_on_disc(ground, rays.origin[i], rays.direction[i], out.t[i]);
+    out.point.set(i, point);
     out.opacity[i] = 1.0F - fade_of_disc(ground, point);
   }
 }

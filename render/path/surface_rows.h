@@ -27,9 +27,10 @@ struct Meetings {
 /// t, u and v of all.
 void meet_triangles(Meetings&);
 
-/// Of each ray: the ground's distance, or infinity, and how little it fades there, in [0, 1].
+/// Of each ray: the ground's distance, or infinity, the point there, and how little it fades, in [0, 1].
 struct GroundRows {
   Row<double> t;
+  Row3<> point;
   Row<float> opacity;
 };
 void meet_ground(const GroundDisc&, const RayRows&, GroundRows&);
