@@ -20,7 +20,10 @@ Brdf::Brdf(const Material& m, float base_share) {
     c.scale.at[i] = a.scale;
     c.offset.at[i] = a.offset;
     c.into_base.at[i] = 1.0F - c.coat_f0 * a.scale - coat_f90 * a.offset;
-    mean_into_base_ += 2.0F * c.into_base.at[i] * cosine * (i == intervals ? 0.5F : 1.0F) / intervals;
+    c.lost.at[i] = std::max(1.0F - a.scale - a.offset, 0.0F);
+    const float weight = 2.0F * cosine * (i == intervals ? 0.5F : 1.0F) / intervals;
+    mean_into_base_ += c.into_base.at[i] * weight;
+    c.mean_lost += c.lost.at[i] * weight;
   }
   c.base_color = f3(m.base_color);
   c.metallic = m.metallic;
@@ -35,7 +38,7 @@ Brdf::View Brdf::view(const Vec3& wo, float least_alpha, const Color* base_color
 
 Brdf::Value Brdf::evaluate(const View& view, const Vec3& wi) const {
   if (wi.z() <= 0.0F || view.wo.z <= 0.0F) return {};
-  const BrdfValue f = evaluate_brdf(view, f3(wi), constants_.into_base);
+  const BrdfValue f = evaluate_brdf(view, f3(wi), constants_);
   return {color(f.f_cos), f.pdf};
 }
 

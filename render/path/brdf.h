@@ -11,10 +11,13 @@ namespace lagomorph::render::path {
 /// A material ready to be evaluated: Lambert under a GGX coat, or a metal. Directions are unit vectors in the
 /// surface's frame, z along the normal, both pointing away from the surface; z > 0 for both.
 ///   f = (1 - metallic) base / pi (1 - E(cos_o)) (1 - E(cos_i)) / (1 - mean E) + F(h.o) D V
+///     + metallic M (1 - E1(cos_o)) (1 - E1(cos_i)) / (pi (1 - mean E1))
 /// with Schlick's F(c) = f0 + (f90 - f0) (1 - c)^5. D is GGX, V = G2 / (4 cos_o cos_i) with Smith's
 /// height-correlated G2 [Heitz 2014]. E is the dielectric coat's directional albedo: the base gets what the
 /// coat lets in and out [Kelemen and Szirmay-Kalos 2001], so that a white one reflects exactly all that
-/// arrives. f90 fades to 0 with f0 below 2 % [Lagarde and de Rousiers 2014]: ior = 1 is no coat at all.
+/// arrives. E1 is that of a white mirror as rough, and M what comes out of a metal's facets after more than
+/// one reflection [Kulla and Conty 2017], so that a white metal does so too. f90 fades to 0 with f0 below 2 %
+/// [Lagarde and de Rousiers 2014]: ior = 1 is no coat at all.
 class Brdf {
 public:
   /// Of the base only the part `base_share` is drawn.
@@ -24,7 +27,8 @@ public:
   struct View : BrdfView {
     float reflectance;  // about, in luminance
   };
-  /// `least_alpha`: the coat is taken to be at least as rough. `base_color`: in place of the material's.
+  /// `least_alpha`: the coat is taken to be at least as rough, but for what it reflects more than once.
+  /// `base_color`: in place of the material's.
   View view(const Vec3& wo, float least_alpha = 0.0F, const Color* base_color = nullptr) const;
 
   struct Value {
@@ -52,7 +56,7 @@ private:
   /// Part of the light from a direction that the dielectric coat lets through.
   float into_base(float cosine) const { return look_up(constants_.into_base, std::max(cosine, 0.0F)); }
 
-  BrdfConstants constants_;
+  BrdfConstants constants_{};
   float mean_into_base_ = 0.0F;  // 2 int into_base(c) c dc
 };
 

@@ -10,8 +10,9 @@ namespace lagomorph::render::path {
 /// A Brdf seen from a direction.
 struct BrdfView {
   F3 wo;
-  F3 base;  // 1/sr, but for what depends on wi
-  F3 f0;    // of the coat or metal
+  F3 base;      // 1/sr, but for what depends on wi
+  F3 multiple;  // likewise, of light that a metal's facets reflect more than once
+  F3 f0;        // of the coat or metal
   float f90;
   float coat_probability;  // of sampling the coat
   float alpha;
@@ -40,12 +41,21 @@ LAGOMORPH_INLINE float smith_root(F3 w, float alpha) {
 struct BrdfConstants {
   CosineTable scale, offset;  // the coat's directional albedo: f0 * scale + f90 * offset
   CosineTable into_base;      // part of the light along a cosine that passes the dielectric coat
+  CosineTable lost;           // part that a mirror of the same roughness does not reflect at once
+  float mean_lost;            // 2 int lost(c) c dc
   F3 base_color;
   float metallic;
   float coat_f0;     // of the dielectric
   float base_scale;  // of the base colour: (1 - metallic) / pi / the mean of into_base, of the part drawn
   float alpha;
 };
+
+/// Part of what a metal of this f0 does not reflect at once that comes out after more reflections [Kulla and
+/// Conty 2017; Hill 2018]; all of it of a white one.
+LAGOMORPH_INLINE float reflected_again(float f0, float mean_lost) {
+  const float mean = f0 + (1.0F - f0) / 21.0F;  // Schlick's, over the cosine
+  return mean * mean * (1.0F - mean_lost) / (1.0F - mean * mean_lost);
+}
 
 struct SeenBrdf {
   BrdfView view;
@@ -58,19 +68,23 @@ LAGOMORPH_INLINE SeenBrdf view_brdf(const BrdfConstants& m, F3 wo, float least_a
   const float f90 = std::min(1.0F, 50.0F * max_of(f0));
   const float cosine = std::max(wo.z, 0.0F);
   const F3 base = (m.base_scale * look_up(m.into_base, cosine)) * base_color;
+  const float lost = look_up(m.lost, cosine);
+  const F3 again = {reflected_again(base_color.x, m.mean_lost), reflected_again(base_color.y, m.mean_lost),
+                    reflected_again(base_color.z, m.mean_lost)};
+  const F3 multiple = (m.metallic * lost * inv_pi / std::max(m.mean_lost, 1e-6F)) * again;
   const float coat = luminance(f0) * look_up(m.scale, cosine) + f90 * look_up(m.offset, cosine);
-  const float all = coat + std::numbers::pi_v<float> * luminance(base);
+  const float all = coat + std::numbers::pi_v<float> * luminance(base) + m.metallic * lost * luminance(again);
   const float alpha = std::max(m.alpha, least_alpha);
   const float probability = all > 0.0F ? coat / all : 0.0F;
-  return {{wo, base, f0, f90, probability, alpha, smith_root(wo, alpha)}, all};
+  return {{wo, base, multiple, f0, f90, probability, alpha, smith_root(wo, alpha)}, all};
 }
 
 struct BrdfValue {
   F3 f_cos;
   float pdf;
 };
-/// Of wi with wi.z > 0 and wo.z > 0; else it means nothing. `into_base`: part of light that passes the coat.
-LAGOMORPH_INLINE BrdfValue evaluate_brdf(const BrdfView& v, F3 wi, const CosineTable& into_base) {
+/// Of wi with wi.z > 0 and wo.z > 0; else it means nothing.
+LAGOMORPH_INLINE BrdfValue evaluate_brdf(const BrdfView& v, F3 wi, const BrdfConstants& m) {
   const F3 h = normalized(v.wo + wi);
   const float a2 = v.alpha * v.alpha;
   const float k = (h.x * h.x + h.y * h.y) / a2 + h.z * h.z;
@@ -80,14 +94,16 @@ LAGOMORPH_INLINE BrdfValue evaluate_brdf(const BrdfView& v, F3 wi, const CosineT
   const float c2 = c * c;
   const float schlick = c2 * c2 * c;
   const float dv = d * visibility;
-  const float in = look_up(into_base, std::max(wi.z, 0.0F));
-  const auto lobe = [&](float base, float f0) {
-    return (base * in + (f0 + (v.f90 - f0) * schlick) * dv) * wi.z;
+  const float in = look_up(m.into_base, std::max(wi.z, 0.0F));
+  const float lost = look_up(m.lost, std::max(wi.z, 0.0F));
+  const auto lobe = [&](float base, float multiple, float f0) {
+    return (base * in + multiple * lost + (f0 + (v.f90 - f0) * schlick) * dv) * wi.z;
   };
   // Density of reflecting at a visible normal: G1(o) D / (4 cos_o), G1 = 2 cos_o / (cos_o + root).
   const float coat_pdf = d / (2.0F * (v.wo.z + v.root));
   const float p = v.coat_probability;
-  return {{lobe(v.base.x, v.f0.x), lobe(v.base.y, v.f0.y), lobe(v.base.z, v.f0.z)},
+  return {{lobe(v.base.x, v.multiple.x, v.f0.x), lobe(v.base.y, v.multiple.y, v.f0.y),
+           lobe(v.base.z, v.multiple.z, v.f0.z)},
           p * coat_pdf + (1.0F - p) * wi.z * inv_pi};
 }
 

@@ -87,6 +87,7 @@ LAGOMORPH_RENDER_SIMD void view_surfaces(const BrdfConstants& m, Range range, Su
     s.b.set(i, frame.b);
     s.wo.set(i, v.wo);
     s.base.set(i, v.base);
+    s.multiple.set(i, v.multiple);
     s.f0.set(i, v.f0);
     s.f90[i] = v.f90;
     s.coat_probability[i] = v.coat_probability;
@@ -167,7 +168,7 @@ LAGOMORPH_RENDER_SIMD void weigh_light(const BrdfConstants& m, Range range, cons
     const F3 direction = light.direction[i];
     const F3 wi = into_frame(s, i, direction);
     const BrdfView view = s.view(i);
-    const BrdfValue f = evaluate_brdf(view, wi, m.into_base);
+    const BrdfValue f = evaluate_brdf(view, wi, m);
     const float pdf = light.pdf[i];
     const double to_ground = meet_disc(ground, s.origin[i], direction);
     const float faded = fade_of_disc(ground, point_on_disc(ground, s.origin[i], direction, to_ground));
@@ -186,7 +187,7 @@ LAGOMORPH_RENDER_SIMD void scatter_surfaces(const BrdfConstants& m, Range range,
   for (std::size_t i = range.first; i < range.last; ++i) {
     const BrdfView view = s.view(i);
     const F3 wi = brdf_direction(view, pairs.u[i], pairs.v[i]);
-    const BrdfValue f = evaluate_brdf(view, wi, m.into_base);
+    const BrdfValue f = evaluate_brdf(view, wi, m);
     const bool goes = all_of(wi.z > 0.0F, view.wo.z > 0.0F, f.pdf > 0.0F);
     out.direction.set(i, out_of_frame(s, i, wi));
     out.throughput.set(i, (1.0F / f.pdf) * (s.throughput[i] * f.f_cos));

@@ -54,11 +54,11 @@ struct SurfaceRows {
   Row3<most_surfaces> n, t, b;  // shading frame
   Row3<most_surfaces> unbent;   // the normal as the surface has it
   // BrdfView
-  Row3<most_surfaces> wo, base, f0;
+  Row3<most_surfaces> wo, base, multiple, f0;
   SurfaceRow<float> f90, coat_probability, alpha, root;
 
   BrdfView view(std::size_t i) const {
-    return {wo[i], base[i], f0[i], f90[i], coat_probability[i], alpha[i], root[i]};
+    return {wo[i], base[i], multiple[i], f0[i], f90[i], coat_probability[i], alpha[i], root[i]};
   }
 };
 

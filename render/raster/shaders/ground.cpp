@@ -85,7 +85,7 @@ void main() {
   }
 #endif
   picture.rgb = (1.0 - part) * picture.rgb + sent;
-  diffuse = min(part * finish.out_of_base / PI * vec4(finish.coat.diffuse, 1.0), most);
+  diffuse = min(part / PI * vec4(finish.out_of_base * finish.coat.diffuse + finish.multiple, finish.out_of_base), most);
   mirrored.rgb = min(part * finish.mirrors * sky.mirrored, most);
 #ifdef SKY_MAP
   mirrored_mesh.rgb = min(part * finish.mirrors * sky.mirrored_mesh, most);
@@ -178,7 +178,7 @@ void main() {
     light += lights[i].radiance.rgb * rectangle_irradiance(lights[i], x, n, direction) * lights_seen[i];
   }
   ambient = vec4(seen, 1.0);
-  bounce = vec4((1.0 - surfaces[0].finish.y) * ground_color_at(x, mat2(ground_map.y / sqrt(12.0))) / PI * light, 1.0);
+  bounce = vec4(ground_color_at(x, mat2(ground_map.y / sqrt(12.0))) / PI * light, 1.0);  // a metal's too, spread
 }
 )";
 

@@ -129,6 +129,8 @@ struct Finish {
   float nv;              // cosine of the view's angle
   float out_of_base;     // see into_base()
   float mean_into_base;
+  vec3 multiple;         // part that a metal's facets reflect more than once, see path/brdf.h
+  float mean_lost;
 };
 Finish finish_of(Surface surface, vec3 n, vec3 v) {
   Finish f;
@@ -138,6 +140,10 @@ Finish finish_of(Surface surface, vec3 n, vec3 v) {
   f.mirrors = f.coat.f0 * at_eye.r + f.coat.f90 * at_eye.g;
   f.out_of_base = into_base(f.coat, at_eye.rg);
   f.mean_into_base = into_base(f.coat, at_eye.ba);
+  f.mean_lost = max(1.0 - at_eye.b - at_eye.a, 1e-6);
+  vec3 mean = surface.color.rgb + (1.0 - surface.color.rgb) / 21.0;
+  f.multiple = surface.finish.y * max(1.0 - at_eye.r - at_eye.g, 0.0) * mean * mean * (1.0 - f.mean_lost) /
+               (1.0 - mean * f.mean_lost);
   return f;
 }
 
@@ -148,6 +154,7 @@ vec3 sent_of_light(int i, Finish f, Point p, vec3 v) {
   vec4 at_light = texture(coat_table, vec2(clamp(dot(p.normal, direction), 0.0, 1.0), f.coat.roughness));
   vec3 reflected =
       f.coat.diffuse * (f.out_of_base * into_base(f.coat, at_light.rg) / (PI * f.mean_into_base) * irradiance);
+  reflected += f.multiple * (max(1.0 - at_light.r - at_light.g, 0.0) / (PI * f.mean_lost) * irradiance);
   reflected += rectangle_reflection(lights[i], p.x, p.normal, v, f.nv, f.coat);
   return lights[i].radiance.rgb * reflected;
 }
@@ -188,11 +195,10 @@ SkyLight sky_light(Finish f, vec3 n, vec3 v, vec4 below) {
   sky.mirrored_below = mix(textureLod(sky_lobes_below, r, level).rgb, (1.0 - above.w) * below.rgb, below.w);
 #else
   vec3 r = reflect(-v, n);
-  vec3 mirrored = mix(below.rgb, sky_radiance(r), smoothstep(-roughness, roughness + 1e-3, r.y));
-  vec3 rough = (open_sky(r) + 0.5 * PI * (1.0 - r.y) * below.rgb) / PI;
-  sky.mirrored = mix(mirrored, rough, roughness);
+  float above = smoothstep(-roughness, roughness + 1e-3, r.y);
+  sky.mirrored = mix(above * sky_radiance(r), open_sky(r) / PI, roughness);
   sky.mirrored_mesh = vec3(0.0);
-  sky.mirrored_below = vec3(0.0);
+  sky.mirrored_below = mix(1.0 - above, 0.5 * (1.0 - r.y), roughness) * below.rgb;
 #endif
   return sky;
 }
@@ -201,7 +207,7 @@ SkyLight sky_light(Finish f, vec3 n, vec3 v, vec4 below) {
 vec3 sent_of_sky(Finish f, SkyLight sky, SkySeen seen) {
   vec3 ambient = ambient_light(sky.open, seen.diffuse, sky.from_below, f.coat.diffuse);
   vec3 in_mirror = sky.mirrored * seen.mirrored + sky.mirrored_mesh * (1.0 - seen.mirrored) * ambient + sky.mirrored_below;
-  return f.coat.diffuse / PI * ambient * f.out_of_base + f.mirrors * in_mirror;
+  return (f.coat.diffuse * f.out_of_base + f.multiple) / PI * ambient + f.mirrors * in_mirror;
 }
 
 // Radiance towards v of a surface under all lights and the sky, of which these parts are seen.

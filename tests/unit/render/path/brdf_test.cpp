@@ -52,6 +52,36 @@ double coat_albedo_of(const Material& m, double cosine) {
   return hemisphere([&](const Vec3& wi) { return coat(dielectric, wo, wi).x() * wi.z(); }, 100, 200);
 }
 
+/// Directional albedo of a white mirror.
+double mirror_albedo_of(float roughness, double cosine) {
+  const Material mirror = material(roughness, 1.0F, Color::Ones());
+  const Vec3 wo = direction(cosine, 0.0);
+  return hemisphere([&](const Vec3& wi) { return coat(mirror, wo, wi).x() * wi.z(); }, 100, 200);
+}
+
+/// What a metal's facets reflect more than once [1/sr]; `mean_lost` of a white mirror.
+Eigen::Array3d multiple(const Material& m, double mean_lost, double co, double ci) {
+  const Eigen::Array3d f0 = m.base_color.cast<double>();
+  const Eigen::Array3d mean = f0 + (1.0 - f0) / 21.0;
+  const double lost = (1.0 - mirror_albedo_of(m.roughness, co)) * (1.0 - mirror_albedo_of(m.roughness, ci));
+  return m.metallic * lost / (pi * mean_lost) * mean.square() * (1.0 - mean_lost) / (1.0 - mean * mean_lost);
+}
+double mean_lost_of(float roughness);
+/// Its albedo, green.
+double multiple_albedo(const Material& m, double cosine) {
+  // int (1 - E1(c)) 2 c dc is the mean that it is divided by.
+  return pi * mean_lost_of(m.roughness) * multiple(m, mean_lost_of(m.roughness), cosine, 0.5).y() /
+         (1.0 - mirror_albedo_of(m.roughness, 0.5));
+}
+double mean_lost_of(float roughness) {
+  double mean = 0.0;
+  for (int k = 0; k < 20; ++k) {
+    const double c = (k + 0.5) / 20;
+    mean += 2.0 * (1.0 - mirror_albedo_of(roughness, c)) * c / 20;
+  }
+  return mean;
+}
+
 TEST(Brdf, MeetsItsFormula) {
   for (const float roughness : {0.5F, 0.75F, 1.0F}) {
     double mean = 0.0;  // of what the coat lets in
@@ -59,6 +89,7 @@ TEST(Brdf, MeetsItsFormula) {
       const double c = (k + 0.5) / 20;
       mean += 2.0 * (1.0 - coat_albedo_of(material(roughness, 0.0F), c)) * c / 20;
     }
+    const double mean_lost = mean_lost_of(roughness);
     for (const double co : {0.1, 0.5, 0.95}) {
       for (const double ci : {0.05, 0.6, 0.99}) {
         const double let_in = (1.0 - coat_albedo_of(material(roughness, 0.0F), co)) *
@@ -66,10 +97,11 @@ TEST(Brdf, MeetsItsFormula) {
         for (const float metallic : {0.0F, 0.4F, 1.0F}) {
           const Material m = material(roughness, metallic);
           const Brdf brdf(m);
+          const Eigen::Array3d again = multiple(m, mean_lost, co, ci);
           for (const double phi : {0.0, 1.0, 2.5, pi}) {
             const Vec3 wo = direction(co, 0.3), wi = direction(ci, 0.3 + phi);
             const Eigen::Array3d base = (1.0 - metallic) * m.base_color.cast<double>() / pi * let_in;
-            const Eigen::Array3d expected = (base + coat(m, wo, wi)) * ci;
+            const Eigen::Array3d expected = (base + again + coat(m, wo, wi)) * ci;
             const Color f_cos = brdf.evaluate(brdf.view(wo), wi).f_cos;
             for (int k = 0; k < 3; ++k) {
               EXPECT_NEAR(f_cos[k], expected[k], 3e-3 * expected[k]) << roughness << " " << metallic;
@@ -88,8 +120,12 @@ TEST(Brdf, SharpCoatsMeetTheirFormula) {
     for (const double co : {0.1, 0.5, 0.95}) {
       for (const double tilt : {0.0, 0.02, 0.05}) {
         const Vec3 wo = direction(co, 0.3), wi = direction(co - tilt, 0.3 + pi + tilt);
-        const Eigen::Array3d expected = coat(metal, wo, wi) * (co - tilt);
-        const Color f_cos = brdf.evaluate(brdf.view(wo), wi).f_cos;
+        // MeetsItsFormula tests what is reflected more than once, which is little here.
+        const Brdf::View view = brdf.view(wo);
+        const Eigen::Array3d again =
+            color(look_up(brdf.constants().lost, wi.z()) * view.multiple).cast<double>();
+        const Eigen::Array3d expected = (coat(metal, wo, wi) + again) * (co - tilt);
+        const Color f_cos = brdf.evaluate(view, wi).f_cos;
         for (int k = 0; k < 3; ++k)
           EXPECT_NEAR(f_cos[k], expected[k], 2e-3 * expected[k]) << roughness << " " << co;
       }
@@ -132,13 +168,25 @@ TEST(Brdf, AWhiteBaseReflectsAllThatArrives) {
   }
 }
 
+TEST(Brdf, AWhiteMetalReflectsAllThatArrives) {
+  for (const float metallic : {0.5F, 1.0F}) {
+    for (const float roughness : {0.1F, 0.3F, 0.6F, 1.0F}) {
+      const Brdf brdf(material(roughness, metallic, Color::Ones()));
+      for (const double cosine : {0.02, 0.1, 0.3, 0.6, 1.0}) {
+        EXPECT_NEAR(sampled_albedo(brdf, cosine), 1.0, 6e-3) << metallic << " " << roughness << " " << cosine;
+      }
+    }
+  }
+}
+
 TEST(Brdf, SamplesGiveTheDirectionalAlbedo) {
   for (const float roughness : {0.45F, 0.7F, 1.0F}) {
     const Material m = material(roughness, 1.0F);
     const Brdf brdf(m);
     for (const double cosine : {0.1, 0.6, 1.0}) {
       const Vec3 wo = direction(cosine, 0.0);
-      const double expected = hemisphere([&](const Vec3& wi) { return coat(m, wo, wi).y() * wi.z(); });
+      const double once = hemisphere([&](const Vec3& wi) { return coat(m, wo, wi).y() * wi.z(); });
+      const double expected = once + multiple_albedo(m, cosine);
       EXPECT_NEAR(sampled_albedo(brdf, cosine), expected, 2e-3 * expected) << roughness << " " << cosine;
     }
   }
@@ -147,8 +195,12 @@ TEST(Brdf, SamplesGiveTheDirectionalAlbedo) {
 TEST(Brdf, RoughenedItIsTheRougherMaterial) {
   const Vec3 wo = direction(0.7, 0.0), wi = direction(0.5, 2.0);
   const Brdf sharp(material(0.2F, 1.0F)), rough(material(0.6F, 1.0F));
-  EXPECT_FLOAT_EQ(sharp.evaluate(sharp.view(wo, 0.36F), wi).f_cos.x(),
-                  rough.evaluate(rough.view(wo), wi).f_cos.x());
+  const auto once = [&](const Brdf& brdf, float least_alpha) {
+    const Brdf::View view = brdf.view(wo, least_alpha);
+    return brdf.evaluate(view, wi).f_cos.x() -
+           look_up(brdf.constants().lost, wi.z()) * view.multiple.x * wi.z();
+  };
+  EXPECT_NEAR(once(sharp, 0.36F), once(rough, 0.0F), 1e-6F);
   EXPECT_FLOAT_EQ(rough.evaluate(rough.view(wo, 0.04F), wi).f_cos.x(),
                   rough.evaluate(rough.view(wo), wi).f_cos.x());
 }

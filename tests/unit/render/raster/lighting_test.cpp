@@ -181,9 +181,15 @@ TEST(RasterLight, AMetalReflectsASmallLightByItsBrdf) {
                                   v.y() * std::sqrt(a2 + (1.0 - a2) * l.y() * l.y()));
     const double fresnel = std::pow(1.0 - v.dot(h), 5.0);
     const double irradiance = point_irradiance(light, p, Vec3::UnitY());
+    // More than once by the path tracer's formula, which is tested there.
+    const path::Brdf brdf(scene.ground.material);
+    const auto cosine = static_cast<float>(v.y());
+    const path::F3 multiple = brdf.view(Vec3(std::sqrt(1.0F - cosine * cosine), 0.0F, cosine)).multiple;
+    const float lost = path::look_up(brdf.constants().lost, static_cast<float>(l.y()));
     for (int c = 0; c < 3; ++c) {
       const double f0 = scene.ground.material.base_color[c];
-      const double expected = (f0 + (1.0 - f0) * fresnel) * d * masking * irradiance;
+      const double once = (f0 + (1.0 - f0) * fresnel) * d * masking;
+      const double expected = (once + static_cast<double>(lost * path::color(multiple)[c])) * irradiance;
       EXPECT_NEAR(color_at(image, px, py)[c], expected, 5e-3 * expected);
     }
   }
