@@ -21,18 +21,18 @@ double blackman_harris(double x) {
   return 0.35875 + 0.48829 * std::cos(t) + 0.14128 * std::cos(2.0 * t) + 0.01168 * std::cos(3.0 * t);
 }
 
-struct Row {
+struct NamedFilter {
   const char* name;
   double (*value)(double);
 };
-constexpr Row filters[] = {{"box", box}, {"gaussian", gaussian}, {"blackman_harris", blackman_harris}};
+constexpr NamedFilter filters[] = {{"box", box}, {"gaussian", gaussian}, {"blackman_harris", blackman_harris}};
 
-const Row& find_filter(std::string_view name) {
-  for (const Row& row : filters) {
+const NamedFilter& find_filter(std::string_view name) {
+  for (const NamedFilter& row : filters) {
     if (name == row.name) return row;
   }
   std::string known;
-  for (const Row& row : filters) known += std::string(known.empty() ? "" : ", ") + row.name;
+  for (const NamedFilter& row : filters) known += std::string(known.empty() ? "" : ", ") + row.name;
   throw SettingsError("render.path.filter: unknown filter '" + std::string(name) + "'; known are " + known);
 }
 
@@ -40,12 +40,12 @@ const Row& find_filter(std::string_view name) {
 
 std::vector<std::string> filter_names() {
   std::vector<std::string> names;
-  for (const Row& row : filters) names.emplace_back(row.name);
+  for (const NamedFilter& row : filters) names.emplace_back(row.name);
   return names;
 }
 
 PixelFilter::PixelFilter(std::string_view name, float radius) {
-  const Row& filter = find_filter(name);
+  const NamedFilter& filter = find_filter(name);
   if (!(radius > 0.0F && radius <= 4.0F)) {
     throw SettingsError("render.path.filter_radius = " + std::to_string(radius) +
                         " must be in (0, 4] pixels");
