@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What the program writes, read by others: states by numpy, meshes by meshio and Gmsh, glTF by Assimp, pictures by pngcheck,
-# OpenEXR by OpenImageIO and exrheader, video by ffprobe; and quadratic tets that Tetgen writes, read by the program.
+# What the program writes, read by others: states by numpy, meshes by meshio and Gmsh, VTU and PVD by VTK, glTF by Assimp, pictures
+# by pngcheck, OpenEXR by OpenImageIO and exrheader, video by ffprobe; and quadratic tets that Tetgen writes, read by the program.
 # shellcheck source=tests/full/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 work=$(mktemp -d)
@@ -78,6 +78,26 @@ run = json.load(open("run/run.json"))
 energy = np.genfromtxt("run/energy.csv", delimiter=",", names=True)
 assert len(energy) == 3 and energy["frame"].tolist() == [0, 1, 2]
 assert np.allclose(energy["kinetic"] + energy["elastic"] + energy["gravitational"], energy["total"], rtol=1e-12, atol=1e-9)
+PY
+/usr/bin/python3 - <<'PY' || fail "VTK does not read the .vtu and .pvd"
+import xml.etree.ElementTree as ET
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+files = [(float(d.get("timestep")), d.get("file")) for d in ET.parse("run/export/cantilever.pvd").getroot().iter("DataSet")]
+assert [round(60 * t) for t, _ in files] == [0, 1, 2], files
+for frame, (_, file) in enumerate(files):
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName("run/export/" + file)
+    reader.Update()
+    grid = reader.GetOutput()
+    assert grid.GetNumberOfCells() > 0, file
+    q, qdot = np.load(f"run/states/frame_{frame:04}.npy")[0]
+    assert np.array_equal(vtk_to_numpy(grid.GetPoints().GetData()), q), file
+    points = grid.GetPointData()
+    assert np.array_equal(vtk_to_numpy(points.GetArray("velocity")), qdot), file
+    assert points.GetVectors() is not None or points.GetArray("displacement").GetNumberOfComponents() == 3, file
+    assert vtk_to_numpy(grid.GetCellData().GetArray("von_mises")).min() >= 0.0, file
 PY
 /usr/bin/python3 - <<'PY' || fail "OpenImageIO does not read the .exr as numpy reads the .npy"
 import numpy as np, OpenImageIO as oiio
