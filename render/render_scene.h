@@ -73,6 +73,7 @@ struct AreaLight {
   Color color = Color(1.0F, 1.0F, 1.0F);
   float radiance = 10.0F;  // of white; times color [W/(sr m^2)]
   bool visible = false;    // seen by camera rays
+  std::string name;        // for messages
 };
 
 /// The axes of a light's rectangle, unit vectors: width along `right`, height along `up`, shining along
@@ -88,6 +89,7 @@ struct Sun {
   Color color = Color(1.0F, 1.0F, 1.0F);
   float irradiance = 3.0F;  // of white, on a surface that faces it; times color [W/m^2]
   bool visible = false;     // seen by camera rays that meet nothing, where there is no background
+  std::string name;         // for messages
 };
 
 /// Radiance by direction: horizon at and below y = 0, zenith straight up, blended by y^0.5; times strength.

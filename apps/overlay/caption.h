@@ -28,11 +28,18 @@ std::string caption_text(const std::string& form, const CaptionValues&);
 /// top_left, top, top_right, bottom_left, bottom, bottom_right.
 std::vector<std::string> caption_places();
 
-/// Takes room for the plate of a text at a place as above; none where there is no text or no room. Its size
-/// is the same for other digits.
-std::optional<Rectangle> place_caption(OverlayLayout&, const std::string& text, const std::string& place);
+/// A caption's lines and what they stand on.
+struct Caption {
+  Rectangle plate;
+  std::vector<std::string> lines;
+};
 
-/// Writes lines of text on their plate: in its middle, each where the first begins.
-void draw_caption(render::Picture&, const std::string& text, const Rectangle& plate);
+/// Takes room for a text at a place as above; none where there is no text or no room for a word. Lines that
+/// are too wide are wrapped at spaces, and what has no room in height is cut, with three dots in its place.
+/// The plate and the lines' ends are the same for other digits.
+std::optional<Caption> place_caption(OverlayLayout&, const std::string& text, const std::string& place);
+
+/// Writes a caption's lines on their plate: in its middle, each where the first begins.
+void draw_caption(render::Picture&, const Caption&);
 
 }  // namespace lagomorph::apps

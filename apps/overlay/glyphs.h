@@ -105,7 +105,42 @@ inline constexpr std::array<std::string_view, 95> glyphs = {
     "0q1q2p2l3j2h2d1c0c",                          // }
     "0i1k2k4i5i6k",                                // ~
 };
-inline constexpr std::string_view at_most_glyph = "6q0m6i 0e6e", at_least_glyph = "0q6m0i 0e6e";
+struct Sign {
+  std::string_view character, glyph;
+};
+/// Other characters in the same way.
+inline constexpr std::array<Sign, 14> signs = {{
+    {"\u2264", "6q0m6i 0e6e"},                  // at most
+    {"\u2265", "0q6m0i 0e6e"},                  // at least
+    {"\u00B0", "1q3q4p4n3m1m0n0p1q"},           // degree
+    {"\u00B7", "0j0j"},                         // middle dot
+    {"\u00D7", "0m6g 6m0g"},                    // times
+    {"\u00B1", "3n3h 0k6k 0e6e"},               // plus or minus
+    {"\u00B5", "0m0a 0g2e4e6g 6m6e"},           // micro
+    {"\u03BC", "0m0a 0g2e4e6g 6m6e"},           // mu
+    {"\u03B5", "6l4m2m0l0k2j4j 2j0i0g2e4e6f"},  // epsilon
+    {"\u03BB", "0q1q2p6e 4k0e"},                // lambda
+    {"\u03BD", "0m1m3e6i6m"},                   // nu
+    {"\u03C0", "0k1m7m 2m2e 5m5f6e"},           // pi
+    {"\u03C1", "0a0k2m4m6k6g4e2e0g"},           // rho
+    {"\u03C3", "8m2m0k0g2e4e6g6k4m"},           // sigma
+}};
+/// What is written for the letters from U+00C0 to U+017F: those they are made of, without accents. The two
+/// that are no letters have none.
+inline constexpr std::array<std::string_view, 192> base_letters = {
+    "A", "A", "A",  "A",  "A", "A", "AE", "C", "E", "E",  "E", "E", "I", "I", "I",  "I",   // U+00C0
+    "D", "N", "O",  "O",  "O", "O", "O",  "",  "O", "U",  "U", "U", "U", "Y", "Th", "ss",  // U+00D0
+    "a", "a", "a",  "a",  "a", "a", "ae", "c", "e", "e",  "e", "e", "i", "i", "i",  "i",   // U+00E0
+    "d", "n", "o",  "o",  "o", "o", "o",  "",  "o", "u",  "u", "u", "u", "y", "th", "y",   // U+00F0
+    "A", "a", "A",  "a",  "A", "a", "C",  "c", "C", "c",  "C", "c", "C", "c", "D",  "d",   // U+0100
+    "D", "d", "E",  "e",  "E", "e", "E",  "e", "E", "e",  "E", "e", "G", "g", "G",  "g",   // U+0110
+    "G", "g", "G",  "g",  "H", "h", "H",  "h", "I", "i",  "I", "i", "I", "i", "I",  "i",   // U+0120
+    "I", "i", "IJ", "ij", "J", "j", "K",  "k", "k", "L",  "l", "L", "l", "L", "l",  "L",   // U+0130
+    "l", "L", "l",  "N",  "n", "N", "n",  "N", "n", "'n", "N", "n", "O", "o", "O",  "o",   // U+0140
+    "O", "o", "OE", "oe", "R", "r", "R",  "r", "R", "r",  "S", "s", "S", "s", "S",  "s",   // U+0150
+    "S", "s", "T",  "t",  "T", "t", "T",  "t", "U", "u",  "U", "u", "U", "u", "U",  "u",   // U+0160
+    "U", "u", "U",  "u",  "W", "w", "Y",  "y", "Y", "Z",  "z", "Z", "z", "Z", "z",  "s",   // U+0170
+};
 /// Of what has no letter here.
 inline constexpr std::string_view box_glyph = "0e0q6q6e0e";
 

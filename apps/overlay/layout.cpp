@@ -22,10 +22,12 @@ OverlayLayout::OverlayLayout(int width, int height)
       unit_(overlay_unit(width, height)),
       text_height_(overlay_text_height(width, height)) {}
 
+double OverlayLayout::margin() const { return std::round(3.0 * unit_); }
+
 std::optional<Rectangle> OverlayLayout::take(double width, double height, const std::string& place) {
   const std::string_view where = place;
   const double wide = std::ceil(width), tall = std::ceil(height);
-  const double margin = std::round(3.0 * unit_), gap = std::round(std::max(2.0, 1.5 * unit_));
+  const double margin = this->margin(), gap = std::round(std::max(2.0, 1.5 * unit_));
   const int across = where.ends_with("left") ? -1 : where.ends_with("right") ? 1 : 0;
   const int along = where.starts_with("top") ? -1 : where.starts_with("bottom") ? 1 : 0;
   const double left = std::round(anchor(width_, wide, margin, across)),

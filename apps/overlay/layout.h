@@ -16,6 +16,7 @@ public:
 
   double unit() const { return unit_; }                // see overlay_unit()
   double text_height() const { return text_height_; }  // see overlay_text_height()
+  double margin() const;                               // between them and the picture's edge
   int width() const { return width_; }
   int height() const { return height_; }
 

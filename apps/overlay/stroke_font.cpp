@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "apps/overlay/glyphs.h"
@@ -15,14 +16,45 @@ constexpr double letter_space = 3.4;
 constexpr double word_space = 4.0;
 constexpr double pen = 0.135;  // width of a stroke over the height of capitals
 
+constexpr unsigned first_accent = 0x300, last_accent = 0x36F;  // that go with the letter before
+constexpr unsigned no_break_space = 0xA0;
+
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
-/// Of the character that begins a text.
-std::string_view glyph_of(std::string_view text) {
-  if (text.starts_with("\u2264")) return at_most_glyph;
-  if (text.starts_with("\u2265")) return at_least_glyph;
-  const auto code = static_cast<unsigned char>(text.front());
+std::string_view ascii_glyph(char c) {
+  const auto code = static_cast<unsigned char>(c);
   return code >= 0x20 && code < 0x20 + glyphs.size() ? glyphs[code - 0x20U] : box_glyph;
+}
+
+/// Calls with the glyphs that stand for the characters of a text, one after another.
+template <class Take>
+void for_each_glyph(std::string_view text, Take take) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (continues_character(text[i])) continue;
+    const std::string_view rest = text.substr(i);
+    const auto first = static_cast<unsigned char>(rest[0]);
+    if (first < 0x80U) {
+      take(ascii_glyph(rest[0]));
+      continue;
+    }
+    const auto sign = std::find_if(signs.begin(), signs.end(),
+                                   [&](const Sign& s) { return rest.starts_with(s.character); });
+    if (sign != signs.end()) {
+      take(sign->glyph);
+      continue;
+    }
+    unsigned code = 0;
+    if (first >= 0xC2U && first < 0xE0U && rest.size() > 1 && continues_character(rest[1]))
+      code = (first & 0x1FU) << 6U | (static_cast<unsigned char>(rest[1]) & 0x3FU);
+    if (code >= first_accent && code <= last_accent) continue;
+    if (code == no_break_space) {
+      take(ascii_glyph(' '));
+    } else if (code >= 0xC0U && code < 0xC0U + base_letters.size() && !base_letters[code - 0xC0U].empty()) {
+      for (const char c : base_letters[code - 0xC0U]) take(ascii_glyph(c));
+    } else {
+      take(box_glyph);
+    }
+  }
 }
 
 double advance(std::string_view glyph) {
@@ -55,21 +87,17 @@ std::vector<Segment> segments_of(std::string_view glyph, double x, double y, dou
 
 double text_width(std::string_view text, double height) {
   double units = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (!continues_character(text[i])) units += advance(glyph_of(text.substr(i)));
-  }
+  for_each_glyph(text, [&](std::string_view glyph) { units += advance(glyph); });
   return std::max(0.0, units - letter_space) * height / cap_units;
 }
 
 void draw_text(render::Picture& picture, double x, double y, std::string_view text, const TextStyle& style) {
   const double unit = style.height / cap_units,
                width = std::max(1.0, (style.bold ? 1.5 : 1.0) * pen * style.height);
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (continues_character(text[i])) continue;
-    const std::string_view glyph = glyph_of(text.substr(i));
+  for_each_glyph(text, [&](std::string_view glyph) {
     draw_strokes(picture, segments_of(glyph, x, y, unit), width, style.color);
     x += unit * advance(glyph);
-  }
+  });
 }
 
 std::string fitting_text(std::string_view text, double height, double width) {

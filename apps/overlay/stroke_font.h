@@ -16,8 +16,8 @@ struct TextStyle {
   bool bold = false;
 };
 
-/// Width of a text [pixels]. ASCII has letters, and ≤ and ≥; any other character of UTF-8 is an empty
-/// box.
+/// Width of a text [pixels]. ASCII has letters, and so have ≤ ≥ ° · × ± µ ε λ ν π ρ σ; accented Latin letters
+/// are written without their accents, ligatures as two letters; any other character of UTF-8 is an empty box.
 double text_width(std::string_view text, double height);
 
 /// Writes a text into a picture, its first letter's left edge at x, its baseline at y; what lies outside is

@@ -105,6 +105,7 @@ void light_by_sky(const SceneDesc& scene, render::RenderScene& drawn) {
     drawn.sky.map = std::make_shared<const render::SkyMap>(render::atmosphere_map(scene.sky.atmosphere));
     render::Sun sun = render::atmosphere_sun(scene.sky.atmosphere);
     sun.irradiance = scene.sky.strength;
+    sun.name = "the sky's sun";
     drawn.suns.push_back(sun);
   }
 }
@@ -229,12 +230,15 @@ render::RenderScene build_render_scene(const SceneDesc& scene, const sim::Model&
     drawn.meshes.push_back(std::move(mesh));
   }
   drawn.ground = scene.ground;
-  for (const LightDesc& light : scene.light) {
+  for (std::size_t i = 0; i < scene.light.size(); ++i) {
+    const LightDesc& light = scene.light[i];
+    const std::string name = fmt::format("light.{}", i);
     if (light.kind == "sun") {
       drawn.suns.push_back(
-          {light.direction.normalized(), light.angle, light.color, light.irradiance, light.visible});
+          {light.direction.normalized(), light.angle, light.color, light.irradiance, light.visible, name});
     } else {
       drawn.lights.push_back(light);
+      drawn.lights.back().name = name;
     }
   }
   light_by_sky(scene, drawn);

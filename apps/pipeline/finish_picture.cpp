@@ -46,28 +46,33 @@ render::Picture finish_picture(const RenderedFrame& frame, const SceneDesc& scen
                                              scene.render.transparent, scene.render.dither);
   const std::vector<ColorBar> bars = with_those_of(overlays, fields.bars(frame.state.q));
   const std::vector<Rectangle> bar_plates = place_color_bars(layout, bars);
-  const std::string caption =
-      caption_text(scene.caption.text, caption_values(scene, frame.state.frame, frame.told));
-  const std::optional<Rectangle> caption_plate = place_caption(layout, caption, scene.caption.place);
+  const std::optional<Caption> caption = place_caption(
+      layout, caption_text(scene.caption.text, caption_values(scene, frame.state.frame, frame.told)),
+      scene.caption.place);
   overlay(picture, [&](render::Picture& on) {
     overlays.draw(on, frame.camera, frame.state);
     draw_color_bars(on, bars, bar_plates);
-    if (caption_plate) draw_caption(on, caption, *caption_plate);
+    if (caption) draw_caption(on, *caption);
     OverlayLayout left = layout;  // this may be called twice
     overlays.draw_energies(on, left, frame.state.frame);
   });
   return picture;
 }
 
-SceneCaption::SceneCaption(const SceneDesc& scene, int frame, const StateRecord& state)
-    : text_(caption_text(scene.caption.text, caption_values(scene, frame, state))) {
+SceneCaption::SceneCaption(const SceneDesc& scene, int frame, const StateRecord& state) {
   OverlayLayout layout(scene.render.width, scene.render.height);
-  plate_ = place_caption(layout, text_, scene.caption.place);
+  placed_ = place_caption(layout, caption_text(scene.caption.text, caption_values(scene, frame, state)),
+                          scene.caption.place);
+}
+
+std::optional<Rectangle> SceneCaption::plate() const {
+  if (!placed_) return std::nullopt;
+  return placed_->plate;
 }
 
 void SceneCaption::draw(render::Picture& picture) const {
-  if (!plate_) return;
-  overlay(picture, [&](render::Picture& on) { draw_caption(on, text_, *plate_); });
+  if (!placed_) return;
+  overlay(picture, [&](render::Picture& on) { draw_caption(on, *placed_); });
 }
 
 }  // namespace lagomorph::apps

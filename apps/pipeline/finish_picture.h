@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/overlay/caption.h"
 #include "apps/overlay/color_bar.h"
 #include "apps/overlay/layout.h"
 #include "apps/pipeline/overlays.h"
@@ -37,12 +38,11 @@ class SceneCaption {
 public:
   SceneCaption(const SceneDesc&, int frame, const StateRecord& state);
   /// Where it stands; nothing in a picture that is too small for it.
-  const std::optional<Rectangle>& plate() const { return plate_; }
+  std::optional<Rectangle> plate() const;
   void draw(render::Picture&) const;
 
 private:
-  std::string text_;
-  std::optional<Rectangle> plate_;
+  std::optional<Caption> placed_;
 };
 
 }  // namespace lagomorph::apps

@@ -230,7 +230,7 @@ render::Picture Views::finish(const render::Image& image, const sim::State& stat
   for (const std::unique_ptr<View>& view : views_) {
     const PanelPlace& place = view->place;
     OverlayLayout layout(place.width, place.height);
-    if (const std::optional<Rectangle>& p = caption.plate())
+    if (const std::optional<Rectangle> p = caption.plate())
       layout.occupy({p->left - place.x, p->top - place.y, p->right - place.x, p->bottom - place.y});
     paste(finished(*view, cropped(image, region_of(place)), std::move(layout)), place, whole);
   }

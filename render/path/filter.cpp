@@ -25,7 +25,8 @@ struct NamedFilter {
   const char* name;
   double (*value)(double);
 };
-constexpr NamedFilter filters[] = {{"box", box}, {"gaussian", gaussian}, {"blackman_harris", blackman_harris}};
+constexpr NamedFilter filters[] = {
+    {"box", box}, {"gaussian", gaussian}, {"blackman_harris", blackman_harris}};
 
 const NamedFilter& find_filter(std::string_view name) {
   for (const NamedFilter& row : filters) {

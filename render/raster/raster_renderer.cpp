@@ -149,10 +149,6 @@ SurfaceBlock surface_block(const Material& material, float thickness) {
 
 void RasterRenderer::set_scene(const RenderScene& scene) {
   check_scene(scene);
-  if (scene.lights.size() + scene.suns.size() > static_cast<std::size_t>(most_lights)) {
-    throw SettingsError("the raster back end draws at most " + std::to_string(most_lights) +
-                        " lights; this scene has " + std::to_string(scene.lights.size() + scene.suns.size()));
-  }
   context_->make_current();
   scene_ = with_stand_ins(scene);
   if (settings_.transparent) scene_.background = Color::Zero();

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <numeric>
 
 #include <Eigen/Geometry>
+
+#include "render/raster/frame_block.h"
 
 namespace lagomorph::render::raster {
 namespace {
@@ -41,6 +45,55 @@ AreaLight far_square(const Sun& sun, const Vec3& middle, float distance) {
   return light;
 }
 
+float luminance(const Color& c) { return 0.2126F * c.x() + 0.7152F * c.y() + 0.0722F * c.z(); }
+
+/// The square of the middle one of the area lights' distances from the meshes' middle.
+float usual_squared_distance(const RenderScene& scene, const Vec3& middle) {
+  std::vector<float> squares;
+  squares.reserve(scene.lights.size());
+  for (const AreaLight& light : scene.lights) squares.push_back((light.position - middle).squaredNorm());
+  if (squares.empty()) return 1.0F;
+  const auto half = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), half, squares.end());
+  return *half;
+}
+
+/// How strong the lights are, then the suns, see with_stand_ins().
+std::vector<float> strengths(const RenderScene& scene) {
+  std::vector<float> all;
+  all.reserve(scene.lights.size() + scene.suns.size());
+  for (const AreaLight& light : scene.lights)
+    all.push_back(light.size.prod() * light.radiance * luminance(light.color));
+  const float square = usual_squared_distance(scene, middle_of(scene));
+  for (const Sun& sun : scene.suns) all.push_back(square * sun.irradiance * luminance(sun.color));
+  return all;
+}
+
+/// Of the lights, then of the suns, whether each is among those drawn; of equal ones the first are.
+std::vector<bool> which_are_drawn(const RenderScene& scene) {
+  const std::size_t count = scene.lights.size() + scene.suns.size(), most = most_lights;
+  if (count <= most) return std::vector<bool>(count, true);
+  const std::vector<float> strength = strengths(scene);
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return strength[a] > strength[b]; });
+  std::vector<bool> drawn(count, false);
+  for (std::size_t i = 0; i < most; ++i) drawn[order[i]] = true;
+  return drawn;
+}
+
+std::string names_of_left_out(const RenderScene& scene, const std::vector<bool>& drawn) {
+  std::string names;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    if (drawn[i]) continue;
+    const std::size_t lights = scene.lights.size();
+    const std::string& name = i < lights ? scene.lights[i].name : scene.suns[i - lights].name;
+    names += (names.empty() ? "" : ", ") + (name.empty() ? "light " + std::to_string(i) : name);
+  }
+  return names;
+}
+
 }  // namespace
 
 float solid_angle(const Sun& sun) {
@@ -51,9 +104,19 @@ float solid_angle(const Sun& sun) {
 RenderScene with_stand_ins(const RenderScene& scene) {
   RenderScene drawn = scene;
   drawn.meshes.clear();
+  drawn.lights.clear();
+  drawn.suns.clear();
   const Vec3 middle = middle_of(scene);
   const float distance = distance_of_suns(scene);
-  for (const Sun& sun : scene.suns) drawn.lights.push_back(far_square(sun, middle, distance));
+  const std::vector<bool> is_drawn = which_are_drawn(scene);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    if (is_drawn[i]) drawn.lights.push_back(scene.lights[i]);
+  }
+  for (std::size_t i = 0; i < scene.suns.size(); ++i) {
+    if (!is_drawn[scene.lights.size() + i]) continue;
+    drawn.suns.push_back(scene.suns[i]);
+    drawn.lights.push_back(far_square(scene.suns[i], middle, distance));
+  }
   return drawn;
 }
 
@@ -64,7 +127,14 @@ std::vector<std::string> stand_in_remarks(const CameraSettings& camera, const Re
   if (scene.motion_segments > 0)
     remarks.emplace_back(
         "camera.shutter: drawn without motion blur of bodies or camera, as all is when the shutter closes");
-  if (!scene.suns.empty()) remarks.emplace_back("a sun is a far square light of its size");
+  const std::vector<bool> is_drawn = which_are_drawn(scene);
+  const auto suns = is_drawn.begin() + static_cast<std::ptrdiff_t>(scene.lights.size());
+  if (std::find(suns, is_drawn.end(), true) != is_drawn.end())
+    remarks.emplace_back("a sun is a far square light of its size");
+  if (std::find(is_drawn.begin(), is_drawn.end(), false) != is_drawn.end()) {
+    remarks.push_back("draws at most " + std::to_string(most_lights) + " lights, the strongest: leaves out " +
+                      names_of_left_out(scene, is_drawn) + "; --backend path draws all");
+  }
   return remarks;
 }
 

@@ -56,10 +56,11 @@ void main() {
 }
 )";
 
-// What is seen in each sample: depth, the two normals, and 1 + the number of the surface in the lower half of the last
-// value; with COLORS the vertices' colour where they have one, w 1. Triangles are small and their pixels many, so that
-// nothing is lit here. The upper half is how far the smooth surface that the vertices' normals stand for is above the
-// triangle [m], as in the path tracer [Hanika 2021]: half of the mean distance to the vertices' tangent planes.
+// What is seen in each sample: depth, the two normals, and 1 + the number of the surface in the lower half of
+// the last value; with COLORS the vertices' colour where they have one, w 1. Triangles are small and their
+// pixels many, so that nothing is lit here. The upper half is how far the smooth surface that the vertices'
+// normals stand for is above the triangle [m], as in the path tracer [Hanika 2021]: half of the mean distance
+// to the vertices' tangent planes.
 //
 // With PEEL: of the surfaces that are not opaque, the next one behind that of the pass before, in each sample
 // for itself [Everitt 2001]. The upper half of the last value is then what those before it let through.
@@ -239,8 +240,8 @@ LayerPoint layer_point(Layers l, int layer) {
 }
 )";
 
-// A layer's surface, for the CPU to find what it sees of the lights and the sky: SurfaceTexel of lit_pixels.h. Point
-// and plane are those of one sample, for the mean of two triangles' is on neither.
+// A layer's surface, for the CPU to find what it sees of the lights and the sky: SurfaceTexel of
+// lit_pixels.h. Point and plane are those of one sample, for the mean of two triangles' is on neither.
 const char* const surface_fragment = R"(
 uniform int layer;
 out uvec4 texel;

@@ -3,10 +3,10 @@
 /// GLSL in parts, to be put one after the other: `frame` first, then what a pass calls, then the pass.
 namespace lagomorph::render::raster::shaders {
 
-extern const char* const frame;   // the Frame block, camera rays, the quad's mean
-extern const char* const brdf;    // GGX coat over Lambert, a rectangle's light on it
-extern const char* const sky;     // the sky's light on a point
-extern const char* const shade;   // all of it together
+extern const char* const frame;         // the Frame block, camera rays, the quad's mean
+extern const char* const brdf;          // GGX coat over Lambert, a rectangle's light on it
+extern const char* const sky;           // the sky's light on a point
+extern const char* const shade;         // all of it together
 extern const char* const ground_point;  // where a pixel sees the ground
 extern const char* const ground_color;
 extern const char* const layers;       // the samples of a pixel, sorted by surface

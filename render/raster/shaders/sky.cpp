@@ -3,7 +3,8 @@
 namespace lagomorph::render::raster::shaders {
 
 // The sky's light is a table by the normal's height (sky_model.h), or of a map of the sky (SKY_MAP,
-// sky_light.h) cubes by direction, times the part of it that the meshes leave (sky_visibility.h). From below comes what the ground reflects, or the horizon, or the map.
+// sky_light.h) cubes by direction, times the part of it that the meshes leave (sky_visibility.h). From below
+// comes what the ground reflects, or the horizon, or the map.
 const char* const sky = R"(
 layout(binding = 2) uniform sampler2D sky_table;
 layout(binding = 3) uniform sampler2D ground_ambient;

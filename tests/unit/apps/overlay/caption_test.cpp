@@ -49,7 +49,7 @@ Drawn drawn(const std::string& text, const std::string& place, int width = 320, 
                               std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width * height), 128)};
   render::Picture picture = plain;
   OverlayLayout layout(width, height);
-  if (const auto plate = place_caption(layout, text, place)) draw_caption(picture, text, *plate);
+  if (const auto caption = place_caption(layout, text, place)) draw_caption(picture, *caption);
   Drawn d{width, -1, height, -1};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -86,10 +86,11 @@ TEST(Caption, StandsInTheMiddleOfItsPlate) {
   const int width = 640, height = 360;
   for (const std::string text : {"0.5 MPa", "a stiff bunny", "t = 11.11 s", "frame 888"}) {
     OverlayLayout layout(width, height);
-    const Rectangle plate = place_caption(layout, text, "top").value();
+    const Caption caption = place_caption(layout, text, "top").value();
+    const Rectangle& plate = caption.plate;
     render::Picture with{width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height, 128)},
         bare = with;
-    draw_caption(with, text, plate);
+    draw_caption(with, caption);
     draw_plate(bare, plate);
     int first = width, last = -1;
     for (int y = 0; y < height; ++y) {
@@ -107,8 +108,89 @@ TEST(Caption, StandsInTheMiddleOfItsPlate) {
 
 TEST(Caption, IsNotDrawnWhereThereIsNoRoom) {
   EXPECT_EQ(drawn("", "top").right, -1);
-  EXPECT_EQ(drawn(std::string(400, 'x'), "top").right, -1);
   EXPECT_EQ(drawn("frame 7", "top", 20, 8).right, -1);
+  OverlayLayout full(320, 180);
+  full.occupy({0, 0, 320, 180});
+  EXPECT_FALSE(place_caption(full, "frame 7", "top"));
+}
+
+std::string joined(const std::vector<std::string>& lines, const std::string& between) {
+  std::string all;
+  for (const std::string& line : lines) all += (all.empty() ? "" : between) + line;
+  return all;
+}
+
+std::string words(int count) {
+  std::string text = "word";
+  for (int i = 1; i < count; ++i) text += " word";
+  return text;
+}
+
+bool is_within(const Rectangle& r, int width, int height) {
+  return r.left >= 0 && r.top >= 0 && r.right <= width && r.bottom <= height;
+}
+
+TEST(Caption, IsWrappedAtSpacesToThePicturesWidth) {
+  const std::string text = words(48);
+  for (const std::string& place : caption_places()) {
+    OverlayLayout layout(640, 360);
+    const Caption caption = place_caption(layout, text, place).value();
+    EXPECT_TRUE(is_within(caption.plate, 640, 360)) << place;
+    EXPECT_GT(caption.plate.right - caption.plate.left, 540) << place;
+    EXPECT_GE(caption.lines.size(), 2U) << place;
+    EXPECT_LE(caption.lines.size(), 3U) << place;
+    EXPECT_EQ(joined(caption.lines, " "), text) << place;
+  }
+  OverlayLayout layout(640, 360);
+  const Caption caption = place_caption(layout, "title\n\n" + text, "top").value();
+  EXPECT_EQ(caption.lines[0], "title");
+  EXPECT_EQ(caption.lines[1], "");
+  const Drawn d = drawn(text, "bottom", 640, 360);
+  EXPECT_LT(d.left, 60);
+  EXPECT_GT(d.right, 580);
+}
+
+TEST(Caption, IsNarrowerBesideWhatIsThere) {
+  OverlayLayout layout(640, 360);
+  layout.occupy({0, 0, 200, 360});
+  const Caption caption = place_caption(layout, words(24), "bottom_left").value();
+  EXPECT_GT(caption.plate.left, 200);
+  EXPECT_EQ(joined(caption.lines, " "), words(24));
+}
+
+TEST(Caption, IsCutWhereThereIsNoRoomInHeight) {
+  const std::string text = words(400);
+  OverlayLayout layout(320, 180);
+  const Caption caption = place_caption(layout, text, "bottom_left").value();
+  EXPECT_TRUE(is_within(caption.plate, 320, 180));
+  EXPECT_GT(caption.plate.bottom - caption.plate.top, 120);
+  std::string shown = joined(caption.lines, " ");
+  ASSERT_TRUE(shown.ends_with("...")) << shown;
+  shown.resize(shown.size() - 3);
+  EXPECT_TRUE(text.starts_with(shown)) << shown;
+  EXPECT_NE(shown.back(), ' ');
+}
+
+TEST(Caption, BreaksAWordThatIsWiderThanThePicture) {
+  std::string word;
+  for (int i = 0; i < 60; ++i) word += "\u00e9x";
+  OverlayLayout layout(320, 180);
+  const Caption caption = place_caption(layout, "a " + word + " b", "top").value();
+  EXPECT_TRUE(is_within(caption.plate, 320, 180));
+  EXPECT_EQ(caption.lines.front(), "a");
+  for (const std::string& line : caption.lines)
+    EXPECT_NE(static_cast<unsigned char>(line.front()) & 0xC0U, 0x80U) << line;  // no half character
+  EXPECT_NE(joined(caption.lines, "").find("x b"), std::string::npos);
+}
+
+TEST(Caption, WrapsAtTheSamePlacesWhileDigitsChange) {
+  std::string ones, eights;
+  for (int i = 0; i < 30; ++i) ones += "frame 111 ", eights += "frame 888 ";
+  OverlayLayout one(640, 360), two(640, 360);
+  const Caption a = place_caption(one, ones, "top").value(), b = place_caption(two, eights, "top").value();
+  ASSERT_EQ(a.lines.size(), b.lines.size());
+  for (std::size_t i = 0; i < a.lines.size(); ++i) EXPECT_EQ(a.lines[i].size(), b.lines[i].size());
+  EXPECT_EQ(a.plate.right, b.plate.right);
 }
 
 }  // namespace caption_test

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -33,7 +35,9 @@ TEST(StrokeFont, HasALetterOfItsOwnForEachOfAscii) {
 }
 
 TEST(StrokeFont, HasWellFormedGlyphs) {
-  for (const std::string_view glyph : glyphs) {
+  std::vector<std::string_view> all(glyphs.begin(), glyphs.end());
+  for (const Sign& sign : signs) all.push_back(sign.glyph);
+  for (const std::string_view glyph : all) {
     for (std::size_t i = 0; i < glyph.size(); i += glyph[i] == ' ' ? 1 : 2) {
       if (glyph[i] == ' ') continue;
       ASSERT_LT(i + 1, glyph.size()) << glyph;
@@ -43,16 +47,32 @@ TEST(StrokeFont, HasWellFormedGlyphs) {
 }
 
 TEST(StrokeFont, DrawsABoxForWhatItHasNot) {
-  EXPECT_EQ(drawn("é"), drawn("ß"));  // one box each, however many bytes
-  EXPECT_FALSE(is_empty(drawn("é")));
-  EXPECT_EQ(text_width("éé", 12), text_width("ßß", 12));
+  EXPECT_EQ(drawn("я"), drawn("語"));  // one box each, however many bytes
+  EXPECT_FALSE(is_empty(drawn("я")));
+  EXPECT_EQ(text_width("яя", 12), text_width("語÷", 12));
+  EXPECT_EQ(drawn("\xC3"), drawn("я"));  // half a character
 }
 
-TEST(StrokeFont, HasSignsOfBounds) {
-  EXPECT_NE(drawn("≤"), drawn("é"));
-  EXPECT_NE(drawn("≥"), drawn("é"));
-  EXPECT_NE(drawn("≤"), drawn("≥"));
-  EXPECT_NE(drawn("≤"), drawn("<"));
+TEST(StrokeFont, WritesAccentedLettersWithoutTheirAccents) {
+  const std::pair<const char*, const char*> alike[] = {
+      {"é", "e"},  {"ß", "ss"}, {"ø", "o"}, {"Å", "A"}, {"ÿ", "y"}, {"À", "A"},       {"Æ", "AE"},
+      {"œ", "oe"}, {"ł", "l"},  {"Ž", "Z"}, {"ž", "z"}, {"ſ", "s"}, {"e\u0301", "e"}, {"\u00A0", " "}};
+  for (const auto& [letter, base] : alike) {
+    EXPECT_EQ(drawn(letter), drawn(base)) << letter;
+    EXPECT_EQ(text_width(letter, 12), text_width(base, 12)) << letter;
+  }
+  EXPECT_EQ(text_width("Ångström", 12), text_width("Angstrom", 12));
+}
+
+TEST(StrokeFont, HasSignsOfItsOwn) {
+  std::map<std::vector<std::uint8_t>, std::string> seen;
+  for (char c = '!'; c <= '~'; ++c) seen.emplace(drawn(std::string(1, c)), std::string(1, c));
+  seen.emplace(drawn("я"), "a box");
+  for (const char* sign : {"≤", "≥", "°", "µ", "·", "×", "±", "σ", "π", "ε", "ν", "ρ", "λ"}) {
+    const auto [there, is_new] = seen.emplace(drawn(sign), sign);
+    EXPECT_TRUE(is_new) << sign << " looks like " << there->second;
+  }
+  EXPECT_EQ(drawn("\u00B5"), drawn("\u03BC"));  // micro and mu
   EXPECT_NEAR(text_width("≥80", 12), text_width(">80", 12), 1e-12);
 }
 

@@ -341,8 +341,6 @@ TEST(RasterRenderer, RefusesWhatDoesNotFitTheScene) {
   expect_error("finite", [&] { renderer->update_positions(0, positions); });
   positions.pop_back();
   expect_error("positions", [&] { renderer->update_positions(0, positions); });
-  scene.lights.resize(5);
-  expect_error("at most 4 lights", [&] { renderer->set_scene(scene); });
   scene = lively_scene();
   scene.meshes[0].triangles[0][0] = 1000000;
   expect_error("triangle 0", [&] { renderer->set_scene(scene); });
