@@ -150,9 +150,7 @@ Color background_radiance(const RenderScene& scene, const Vec3& direction) {
 
 float ground_fade(const Ground& ground, const Vec3& point) {
   const Vec2 d(point.x() - ground.center.x(), point.z() - ground.center.z());
-  const float x =
-      std::clamp((d.norm() - ground.fade_start) / (ground.radius - ground.fade_start), 0.0F, 1.0F);
-  return x * x * (3.0F - 2.0F * x);
+  return fade_at(d.norm(), ground.fade_start, ground.radius);
 }
 
 }  // namespace lagomorph::render

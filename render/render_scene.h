@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "render/simd.h"
 #include "render/sky_map.h"
 #include "render/types.h"
 
@@ -126,5 +128,10 @@ Color background_radiance(const RenderScene&, const Vec3& direction);
 /// Weight of the background at a point of the ground: 0 inside fade_start, 1 at radius and beyond, smoothstep
 /// between.
 float ground_fade(const Ground&, const Vec3& point);
+/// The same at a distance from its centre.
+LAGOMORPH_INLINE float fade_at(float distance, float fade_start, float radius) {
+  const float x = std::min(std::max((distance - fade_start) / (radius - fade_start), 0.0F), 1.0F);
+  return x * x * (3.0F - 2.0F * x);
+}
 
 }  // namespace lagomorph::render

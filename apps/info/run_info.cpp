@@ -75,10 +75,7 @@ void add_seconds(Report& report, const Sums& sums) {
              fmt::format("{} iterations a frame, largest residual {}",
                          number_text(each(sums.iterations, sums.states.size())), number_text(sums.residual)),
              "newton", {{"iterations", sums.iterations}, {"largest_residual", sums.residual}});
-  report.add("linear systems", solves_text(sums.solves), "linear_systems",
-             {{"factorizations", sums.solves.factorizations},
-              {"cg_iterations", sums.solves.cg_iterations},
-              {"factor_iterations", sums.solves.factor_iterations}});
+  report.add("linear systems", solves_text(sums.solves), "linear_systems", solves_json(sums.solves));
 }
 
 void add_energy(Report& report, const std::map<int, FrameRecord>& records) {

@@ -9,6 +9,7 @@
 
 #include "apps/error.h"
 #include "apps/file_io.h"
+#include "apps/run/solves_text.h"
 #include "sim/error.h"
 
 namespace lagomorph::apps {
@@ -30,12 +31,6 @@ Json json_of(const sim::Vec3& v) { return {v.x(), v.y(), v.z()}; }
 /// A number that is not finite is null in JSON.
 double number(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
-}
-
-Json solves_json(const sim::SolveCounts& solves) {
-  return {{"factorizations", solves.factorizations},
-          {"cg_iterations", solves.cg_iterations},
-          {"factor_iterations", solves.factor_iterations}};
 }
 
 /// Zero where they are not told.

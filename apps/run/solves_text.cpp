@@ -1,6 +1,7 @@
 #include "apps/run/solves_text.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace lagomorph::apps {
 
@@ -22,6 +23,12 @@ std::string solves_text(const sim::SolveCounts& solves) {
   if (solves.factor_iterations > 0)
     text += fmt::format(" and {} iterations with a factor kept", solves.factor_iterations);
   return text;
+}
+
+nlohmann::ordered_json solves_json(const sim::SolveCounts& solves) {
+  return {{"factorizations", solves.factorizations},
+          {"cg_iterations", solves.cg_iterations},
+          {"factor_iterations", solves.factor_iterations}};
 }
 
 }  // namespace lagomorph::apps

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "sim/solve_counts.h"
 
 namespace lagomorph::apps {
@@ -11,5 +13,7 @@ namespace lagomorph::apps {
 std::string way_text(const sim::SolveCounts&);
 /// The same with their numbers: "1204 iterations of conjugate gradients, no factorization".
 std::string solves_text(const sim::SolveCounts&);
+/// The numbers alone.
+nlohmann::ordered_json solves_json(const sim::SolveCounts&);
 
 }  // namespace lagomorph::apps

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "render/path/lane_math.h"
+#include "render/render_scene.h"
 
 /// The formulas of SceneGeometry for one lane; scene_geometry.h says what they mean.
 namespace lagomorph::render::path {
@@ -79,9 +80,7 @@ LAGOMORPH_INLINE F3 point_on_disc(const GroundDisc& g, F3 origin, F3 direction, 
 LAGOMORPH_INLINE float fade_of_disc(const GroundDisc& g, F3 point) {
   const float dx = point.x - g.x;
   const float dz = point.z - g.z;
-  const float x = std::min(
-      std::max((std::sqrt(dx * dx + dz * dz) - g.fade_start) / (g.radius - g.fade_start), 0.0F), 1.0F);
-  return x * x * (3.0F - 2.0F * x);
+  return fade_at(std::sqrt(dx * dx + dz * dz), g.fade_start, g.radius);
 }
 
 /// n bent as little as needed for the unit direction wo to be above it.

@@ -99,6 +99,12 @@ LAGOMORPH_INLINE F3 sun_direction(const SunDisc& sun, float u, float v) {
   return normalized(across * (phi.cosine * sun.t + phi.sine * sun.b) + (1.0F - below) * sun.middle);
 }
 
+/// Power heuristic for one sample of each of two ways [Veach 1997, Eq. 9.13].
+LAGOMORPH_INLINE float power_heuristic(float pdf, float other) {
+  const float a = pdf * pdf;
+  return a / (a + other * other);
+}
+
 /// A sky without a map: its radiance between two colours, up to straight above.
 struct SkyGradient {
   F3 horizon, zenith;

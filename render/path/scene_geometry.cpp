@@ -23,6 +23,10 @@ TimeSegment time_segment(std::size_t segments, float time) {
   return {step, along - static_cast<float>(step)};
 }
 
+SurfacePoint surface_point(const Arrival& at) {
+  return {vec3(at.origin), vec3(at.normal), vec3(at.beyond), at.inside, vec3(at.unbent)};
+}
+
 }  // namespace
 
 SceneGeometry::SceneGeometry(const RenderScene& scene)
@@ -140,7 +144,7 @@ SurfacePoint SceneGeometry::arrive(const Ray& ray, const MeshHit& hit, const Tri
   const Triangle& triangle = m.triangles[hit.triangle];
   const Arrival to = arrive_on_triangle(-f3(ray.direction), at.u, at.v, corners(m, triangle, ray.time),
                                         normals(m, triangle, ray.time), m.smooth, disc_);
-  return {vec3(to.origin), vec3(to.normal), vec3(to.beyond), to.inside, vec3(to.unbent)};
+  return surface_point(to);
 }
 
 Vec3 SceneGeometry::behind(const Ray& ray, const MeshHit& hit, const TriangleHit& at) const {
@@ -181,7 +185,7 @@ Vec3 SceneGeometry::ground_point(const Ray& ray, double t) const {
 SurfacePoint SceneGeometry::arrive_at_ground(const Ray& ray, double t) const {
   const F3 direction = f3(ray.direction);
   const Arrival to = arrive_on_disc(point_on_disc(disc_, f3(ray.origin), direction, t), direction);
-  return {vec3(to.origin), vec3(to.normal), vec3(to.beyond), to.inside, vec3(to.unbent)};
+  return surface_point(to);
 }
 
 }  // namespace lagomorph::render::path

@@ -9,12 +9,6 @@
 namespace lagomorph::render::path {
 namespace {
 
-/// Power heuristic for one sample of each of two ways [Veach 1997, Eq. 9.13].
-LAGOMORPH_INLINE float heuristic(float pdf, float other) {
-  const float a = pdf * pdf;
-  return a / (a + other * other);
-}
-
 LAGOMORPH_INLINE F3 into_frame(const SurfaceRows& s, std::size_t i, F3 a) {
   return {dot(a, s.t[i]), dot(a, s.b[i]), dot(a, s.n[i])};
 }
@@ -173,7 +167,7 @@ LAGOMORPH_RENDER_SIMD void weigh_light(const BrdfConstants& m, Range range, cons
     const double to_ground = meet_disc(ground, s.origin[i], direction);
     const float faded = fade_of_disc(ground, point_on_disc(ground, s.origin[i], direction, to_ground));
     const float through = to_ground < static_cast<double>(light.distance[i]) ? faded : 1.0F;
-    const float weight = through * heuristic(pdf, f.pdf) / pdf;
+    const float weight = through * power_heuristic(pdf, f.pdf) / pdf;
     const F3 arriving = weight * (light.radiance[i] * f.f_cos * s.throughput[i]);
     light.radiance.set(i, arriving);
     const bool lit = all_of(all_of(pdf > 0.0F, wi.z > 0.0F, view.wo.z > 0.0F), max_of(arriving) > 0.0F);
