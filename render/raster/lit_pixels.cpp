@@ -1,16 +1,12 @@
 #include "render/raster/lit_pixels.h"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cmath>
-#include <optional>
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "render/raster/pixel_block.h"
-#include "render/raster/pixel_ray.h"
+#include "render/raster/quad_parts.h"
 #include "render/raster/sky_visibility.h"
 #include "render/raster/soft_shadow.h"
 
@@ -18,152 +14,31 @@ namespace lagomorph::render::raster {
 namespace {
 
 constexpr Parts whole = {65535, 65535, 65535, 65535};
+constexpr int quads_width = 2 * block_width, quads_height = 2 * block_height;  // of a block of quads [pixels]
 
 std::uint16_t fraction(float x) {
   return static_cast<std::uint16_t>(std::clamp(x * 65535.0F + 0.5F, 0.0F, 65535.0F));
 }
 
-/// As pixel_footprint() of the shaders.
-float pixel_footprint(const FrameBlock& frame, float depth) {
-  return 2.0F * frame.up.head<3>().norm() * frame.viewport[3] * (frame.eye.w() > 0.5F ? 1.0F : depth);
-}
-
-/// Two fractions in [-1, 1], see packSnorm2x16.
-Vec2 unpacked(std::uint32_t bits) {
-  const auto part = [](std::uint32_t half) {
-    return std::max(static_cast<float>(static_cast<std::int16_t>(half & 0xffffU)) / 32767.0F, -1.0F);
-  };
-  return {part(bits), part(bits >> 16U)};
-}
-
-/// As direction_of() of the shaders [Meyer et al. 2010].
-Vec3 direction_of(const Vec2& p) {
-  Vec3 n(p.x(), p.y(), 1.0F - std::abs(p.x()) - std::abs(p.y()));
-  if (n.z() < 0.0F) {
-    n.x() = std::copysign(1.0F - std::abs(p.y()), p.x());
-    n.y() = std::copysign(1.0F - std::abs(p.x()), p.y());
-  }
-  return n.normalized();
-}
-
-/// As mirrored_view() of the shaders.
-Vec3 mirrored_view(const Vec3& v, const Vec3& normal) {
-  constexpr float least = 1e-3F;
-  const float cosine = normal.dot(v);
-  const Vec3 n = cosine < least ? Vec3((normal + (least - cosine) * v).normalized()) : normal;
-  return 2.0F * n.dot(v) * n - v;
-}
-
-void clear(Receivers& r, int lane) {
-  const auto l = static_cast<std::size_t>(lane);
-  r.there[l] = 0;
-  r.point.set(lane, Vec3::Zero());
-  for (Lanes3* n : {&r.flat_normal, &r.normal, &r.mirrored}) n->set(lane, Vec3::UnitY());
-  r.raised[l] = 0.0F;
-  r.roughness[l] = 1.0F;
-  r.depth[l] = 1e9F;  // unlike any neighbour's
-  r.footprint[l] = 1.0F;
-}
-
-/// A point of the ground; all see the same plane.
-void put_ground(Receivers& r, int lane, const Vec3& point, float normal_y, float footprint) {
-  r.is_ground = true;
-  const auto l = static_cast<std::size_t>(lane);
-  r.there[l] = 1;
-  r.point.set(lane, point);
-  for (Lanes3* n : {&r.flat_normal, &r.normal, &r.mirrored}) n->set(lane, Vec3(0.0F, normal_y, 0.0F));
-  r.depth[l] = 0.0F;
-  r.footprint[l] = footprint;
-}
-
-/// Returns whether any is in the block.
-bool ground_receivers(const FrameBlock& frame, int x, int y, Receivers& r) {
-  bool any = false;
-  for (int lane = 0; lane < lanes; ++lane) {
-    clear(r, lane);
-    const std::optional<GroundPoint> ground = ground_at_pixel(
-        frame, static_cast<float>(x + column(lane)) + 0.5F, static_cast<float>(y + row(lane)) + 0.5F);
-    if (!ground) continue;
-    const bool above = frame.eye.w() > 0.5F ? frame.forward.y() < 0.0F : frame.eye.y() > ground->point.y();
-    put_ground(r, lane, ground->point, above ? 1.0F : -1.0F, pixel_footprint(frame, ground->depth));
-    any = true;
-  }
-  return any;
-}
-
-void ground_map_receivers(const FrameBlock& frame, int x, int y, Receivers& r) {
-  const Vec4& map = frame.ground_map;
-  for (int lane = 0; lane < lanes; ++lane) {
-    clear(r, lane);
-    const Vec2 at =
-        Vec2(static_cast<float>(x + column(lane)) + 0.5F, static_cast<float>(y + row(lane)) + 0.5F) /
-        frame.counts[3];
-    put_ground(r, lane, Vec3((at.x() - map[2]) / map[0], frame.ground.x(), (at.y() - map[3]) / map[0]), 1.0F,
-               map[1]);
-  }
-}
-
-/// Returns false where no surface is in the block.
-bool surface_receivers(const FrameBlock& frame, bool with_mirrored, const PixelRectangle& rectangle,
-                       std::span<const SurfaceTexel> texels, int x, int y, Receivers& r) {
-  bool any = false;
-  for (int lane = 0; lane < lanes; ++lane) {
-    clear(r, lane);
-    const int px = x + column(lane), py = y + row(lane);
-    const SurfaceTexel& t = texels[static_cast<std::size_t>(py) * static_cast<std::size_t>(rectangle.width) +
-                                   static_cast<std::size_t>(px)];
-    if (t.finish == 0) continue;
-    any = true;
-    const auto l = static_cast<std::size_t>(lane);
-    const PixelRay ray = pixel_ray(frame, static_cast<float>(rectangle.x + px) + 0.5F,
-                                   static_cast<float>(rectangle.y + py) + 0.5F);
-    const auto depth = std::bit_cast<float>(t.depth);
-    r.there[l] = 1;
-    r.point.set(lane, ray.origin + depth * ray.direction);
-    r.flat_normal.set(lane, direction_of(unpacked(t.flat_normal)));
-    const Vec3 normal = direction_of(unpacked(t.normal));
-    r.normal.set(lane, normal);
-    if (with_mirrored) r.mirrored.set(lane, mirrored_view(-ray.direction.normalized(), normal));
-    r.roughness[l] = static_cast<float>((t.finish & 0xffffU) - 1U) / 65534.0F;
-    r.raised[l] =
-        static_cast<float>(Eigen::numext::bit_cast<Eigen::half>(static_cast<std::uint16_t>(t.finish >> 16U)));
-    r.depth[l] = depth;
-    r.footprint[l] = pixel_footprint(frame, depth);
-  }
-  return any;
-}
-
-/// Rectangles of whole blocks around `part` with a block more to all sides, for neighbours of its pixels to
-/// be there; receivers(x, y, r) puts those of the block at a corner, and says whether anything is there.
+/// Blocks of `part` with a block more to all sides, for neighbours of its points to be there; receivers(x, y,
+/// r) puts those of the block at a corner, `step` pixels apart, and says whether anything is there.
 template <class BlockReceivers>
-ReceiverBlocks receivers_around(const PixelRectangle& part, const BlockReceivers& receivers) {
+ReceiverBlocks receivers_around(const PixelRectangle& part, int step, const BlockReceivers& receivers) {
   ReceiverBlocks all;
-  all.resize(part.width / block_width + 2, part.height / block_height + 2);
+  const int width = step * block_width, height = step * block_height;
+  all.resize(part.width / width + 2, part.height / height + 2);
   for (int k = 0; k < all.rows * all.columns; ++k) {
-    const int x = part.x + (k % all.columns - 1) * block_width,
-              y = part.y + (k / all.columns - 1) * block_height;
+    const int x = part.x + (k % all.columns - 1) * width, y = part.y + (k / all.columns - 1) * height;
     const auto i = static_cast<std::size_t>(k);
     all.empty[i] = receivers(x, y, all.blocks[i]) ? 0 : 1;
   }
   return all;
 }
 
-/// Calls block(x, y, receivers) for those of the part itself that are not empty.
-template <class Block>
-void for_blocks_of(const PixelRectangle& part, const ReceiverBlocks& receivers, const Block& block) {
-  for (int j = 1; j < receivers.rows - 1; ++j) {
-    for (int i = 1; i < receivers.columns - 1; ++i) {
-      const auto k = static_cast<std::size_t>(j * receivers.columns + i);
-      if (receivers.empty[k] == 0)
-        block(part.x + (i - 1) * block_width, part.y + (j - 1) * block_height, receivers.blocks[k]);
-    }
-  }
-}
-
-/// Calls part() for bands of a rectangle of whole blocks, on all threads.
+/// Calls part() for bands of a rectangle of whole blocks of quads, on all threads.
 template <class Part>
 void for_bands(int width, int height, const Part& part) {
-  constexpr int most = 32;  // rows, over which a block more to both sides is little
+  constexpr int most = 64;  // rows, over which a block more to both sides is little
   tbb::parallel_for(0, (height + most - 1) / most, [&](int k) {
     part(PixelRectangle{0, k * most, width, std::min(most, height - k * most)});
   });
@@ -173,19 +48,8 @@ std::size_t pixel_of(const PixelRectangle& at, int x, int y) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(at.width) + static_cast<std::size_t>(x);
 }
 
-/// Those lights whose bit is set, of the part in the middle of its receivers.
-void put_lights(const FrameBlock& frame, const DepthMaps& maps, const ReceiverBlocks& receivers,
-                std::uint32_t which, const PixelRectangle& part, LitPixels& lit) {
-  std::vector<float> seen;
-  for (std::size_t i = 0; i < maps.lights.size(); ++i) {
-    if ((which >> i & 1U) == 0) continue;
-    soft_shadow(frame, maps, static_cast<int>(i), receivers, seen);
-    for (int y = 0; y < part.height; ++y) {
-      const float* from = seen.data() + (y + block_height) * receivers.width() + block_width;
-      Parts* to = lit.lights.data() + pixel_of(lit.at, part.x, part.y + y);
-      for (int x = 0; x < part.width; ++x) to[x][i] = fraction(from[x]);
-    }
-  }
+std::size_t area(const PixelRectangle& r) {
+  return static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height);
 }
 
 void put_sky(const Lanes3& seen, const PixelRectangle& at, int x, int y, std::vector<Parts>& parts) {
@@ -196,19 +60,135 @@ void put_sky(const Lanes3& seen, const PixelRectangle& at, int x, int y, std::ve
   }
 }
 
-std::size_t area(const PixelRectangle& r) {
-  return static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height);
+constexpr std::uint32_t all_lights = ~0U;
+enum class Sky { left_out, diffuse, mirrored_too };
+
+/// What is asked for of the pixels of a part, and where it goes; rectangles count from `lit.at`.
+struct Lighting {
+  const FrameBlock& frame;
+  const DepthMaps& maps;
+  std::uint32_t lights;  // those whose bit is set
+  Sky sky;
+  LitPixels& lit;
+
+  bool wants(std::size_t light) const { return (lights >> light & 1U) != 0; }
+};
+
+/// Calls to(light, seen) for each that is asked for: the parts that soft_shadow() finds.
+template <class To>
+void for_lights(const Lighting& l, const ReceiverBlocks& receivers, const To& to) {
+  std::vector<float> seen;
+  for (std::size_t i = 0; i < l.maps.lights.size(); ++i) {
+    if (!l.wants(i)) continue;
+    soft_shadow(l.frame, l.maps, static_cast<int>(i), receivers, seen);
+    to(i, seen);
+  }
 }
 
-constexpr std::uint32_t all_lights = ~0U;
+QuadParts parts_of_quads(const Lighting& l, const ReceiverBlocks& quads) {
+  QuadParts parts(quads);
+  for_lights(l, quads, [&](std::size_t light, const std::vector<float>& seen) {
+    std::size_t k = 0;
+    for (int y = 0; y < parts.height(); ++y) {
+      for (int x = 0; x < parts.width(); ++x) parts.at(x, y)[light] = seen[k++];
+    }
+  });
+  if (l.sky != Sky::left_out) {
+    quads.for_each([&](int x, int y, const Receivers& r) {
+      SkySeen seen;
+      sky_seen(l.frame, l.maps, r, seen);
+      for (int lane = 0; lane < lanes; ++lane) {
+        SeenParts& p = parts.at(x + column(lane), y + row(lane));
+        for (const auto& [first, of] :
+             {std::pair{first_sky, &seen.diffuse}, {first_mirrored, &seen.mirrored}}) {
+          const Vec3 v = of->at(lane);
+          p[first] = v.x(), p[first + 1] = v.y(), p[first + 2] = v.z();
+        }
+      }
+    });
+  }
+  parts.finish(quads);
+  return parts;
+}
+
+void put_parts(const Lighting& l, const SeenParts& seen, std::size_t pixel) {
+  for (std::size_t i = 0; i < l.maps.lights.size(); ++i) {
+    if (l.wants(i)) l.lit.lights[pixel][i] = fraction(seen[i]);
+  }
+  const auto sky = [&](std::size_t first) {
+    return Parts{fraction(seen[first]), fraction(seen[first + 1]), fraction(seen[first + 2]), 65535};
+  };
+  if (l.sky != Sky::left_out) l.lit.diffuse[pixel] = sky(first_sky);
+  if (l.sky == Sky::mirrored_too) l.lit.mirrored[pixel] = sky(first_mirrored);
+}
+
+/// Pixel by pixel, of those blocks of the part that are not empty; a block more is around.
+void light_each_pixel(const Lighting& l, const PixelRectangle& part, const ReceiverBlocks& receivers) {
+  const auto for_inner_blocks = [&](const auto& block) {
+    receivers.for_each([&](int x, int y, const Receivers& r) {
+      const int px = x - block_width, py = y - block_height;
+      if (px >= 0 && py >= 0 && px < part.width && py < part.height) block(x, y, part.x + px, part.y + py, r);
+    });
+  };
+  for_lights(l, receivers, [&](std::size_t light, const std::vector<float>& seen) {
+    for_inner_blocks([&](int x, int y, int to_x, int to_y, const Receivers&) {
+      for (int j = 0; j < block_height; ++j) {
+        const float* from = seen.data() + (y + j) * receivers.width() + x;
+        Parts* to = l.lit.lights.data() + pixel_of(l.lit.at, to_x, to_y + j);
+        for (int i = 0; i < block_width; ++i) to[i][light] = fraction(from[i]);
+      }
+    });
+  });
+  if (l.sky == Sky::left_out) return;
+  for_inner_blocks([&](int, int, int to_x, int to_y, const Receivers& r) {
+    SkySeen seen;
+    sky_seen(l.frame, l.maps, r, seen);
+    put_sky(seen.diffuse, l.lit.at, to_x, to_y, l.lit.diffuse);
+    if (l.sky == Sky::mirrored_too) put_sky(seen.mirrored, l.lit.at, to_x, to_y, l.lit.mirrored);
+  });
+}
+
+/// By quads where that will do. receivers(x, y, step, r) are those of a block at pixel (x, y) of the part;
+/// shared(x, y, parts, seen) what the quads say of a pixel, false where they say nothing.
+template <class BlockReceivers, class Shared>
+void light_part(const Lighting& l, const PixelRectangle& part, const BlockReceivers& receivers,
+                const Shared& shared) {
+  const PixelRectangle own = {0, 0, part.width, part.height};
+  const ReceiverBlocks quads =
+      receivers_around(own, 2, [&](int x, int y, Receivers& r) { return receivers(x, y, 2, r); });
+  const QuadParts parts = parts_of_quads(l, quads);
+  const int columns = part.width / block_width;
+  std::vector<char> alone(static_cast<std::size_t>(columns * (part.height / block_height)), 0);
+  bool any = false;
+  SeenParts seen;
+  for (int y = 0; y < part.height; ++y) {
+    for (int x = 0; x < part.width; ++x) {
+      const auto k = static_cast<std::size_t>(y / block_height * columns + x / block_width);
+      if (alone[k] != 0) continue;
+      if (shared(x, y, parts, seen)) {
+        put_parts(l, seen, pixel_of(l.lit.at, part.x + x, part.y + y));
+      } else {
+        alone[k] = 1;
+        any = true;
+      }
+    }
+  }
+  if (!any) return;
+  light_each_pixel(
+      l, part, receivers_around(own, 1, [&](int x, int y, Receivers& r) {
+        const bool inside = x >= 0 && y >= 0 && x < part.width && y < part.height;
+        return inside && alone[static_cast<std::size_t>(y / block_height * columns + x / block_width)] != 0 &&
+               receivers(x, y, 1, r);
+      }));
+}
 
 }  // namespace
 
 PixelRectangle whole_blocks(const PixelRectangle& r) {
   const auto down = [](int x, int step) { return x / step * step; };
   const auto up = [](int x, int step) { return (x + step - 1) / step * step; };
-  const int x = down(r.x, block_width), y = down(r.y, block_height);
-  return {x, y, up(r.x + r.width, block_width) - x, up(r.y + r.height, block_height) - y};
+  const int x = down(r.x, quads_width), y = down(r.y, quads_height);
+  return {x, y, up(r.x + r.width, quads_width) - x, up(r.y + r.height, quads_height) - y};
 }
 
 void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<const TileRun> runs,
@@ -228,12 +208,17 @@ void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<cons
   tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t k) {
     const TileRun& run = runs[k];
     if (run.lights_hidden == 0) return;
-    PixelRectangle part{static_cast<int>(run.left), static_cast<int>(run.lower),
-                        static_cast<int>(run.right - run.left), static_cast<int>(run.upper - run.lower)};
-    const ReceiverBlocks receivers =
-        receivers_around(part, [&](int x, int y, Receivers& r) { return ground_receivers(frame, x, y, r); });
-    part.x -= lit.at.x, part.y -= lit.at.y;
-    put_lights(frame, maps, receivers, run.lights_hidden, part, lit);
+    const int x0 = static_cast<int>(run.left), y0 = static_cast<int>(run.lower);
+    const PixelRectangle part{x0 - lit.at.x, y0 - lit.at.y, static_cast<int>(run.right) - x0,
+                              static_cast<int>(run.upper) - y0};
+    light_part(
+        {frame, maps, run.lights_hidden, Sky::left_out, lit}, part,
+        [&](int x, int y, int step, Receivers& r) {
+          return ground_receivers(frame, x0 + x, y0 + y, step, r);
+        },
+        [](int x, int y, const QuadParts& quads, SeenParts& seen) {
+          return quads.find(x + quads_width, y + quads_height, 0.0F, Vec3::UnitY(), 1.0F, seen);
+        });
   });
 }
 
@@ -244,19 +229,20 @@ bool light_surfaces(const FrameBlock& frame, const DepthMaps& maps, const PixelR
   lit.at = rectangle;
   for (std::vector<Parts>* parts : {&lit.lights, &lit.diffuse}) parts->resize(area(rectangle));
   lit.mirrored.resize(maps.sky_is_map ? area(rectangle) : 0);
+  const SurfaceTexels surfaces{rectangle, texels};
   for_bands(rectangle.width, rectangle.height, [&](const PixelRectangle& band) {
-    const ReceiverBlocks receivers = receivers_around(band, [&](int x, int y, Receivers& r) {
-      const bool inside =
-          x >= 0 && y >= 0 && x + block_width <= rectangle.width && y + block_height <= rectangle.height;
-      return inside && surface_receivers(frame, maps.sky_is_map, rectangle, texels, x, y, r);
-    });
-    put_lights(frame, maps, receivers, all_lights, band, lit);
-    for_blocks_of(band, receivers, [&](int x, int y, const Receivers& r) {
-      SkySeen seen;
-      sky_seen(frame, maps, r, seen);
-      put_sky(seen.diffuse, rectangle, x, y, lit.diffuse);
-      if (maps.sky_is_map) put_sky(seen.mirrored, rectangle, x, y, lit.mirrored);
-    });
+    light_part(
+        {frame, maps, all_lights, maps.sky_is_map ? Sky::mirrored_too : Sky::diffuse, lit}, band,
+        [&](int x, int y, int step, Receivers& r) {
+          return surface_receivers(frame, maps.sky_is_map, surfaces, band.x + x, band.y + y, step, r);
+        },
+        [&](int x, int y, const QuadParts& quads, SeenParts& seen) {
+          const SurfaceTexel* t = surfaces.find(band.x + x, band.y + y);
+          if (t == nullptr) return true;
+          const auto depth = std::bit_cast<float>(t->depth);
+          return quads.find(x + quads_width, y + quads_height, depth, normal_of(*t),
+                            10.0F * pixel_footprint(frame, depth), seen);
+        });
   });
   return true;
 }
@@ -267,16 +253,17 @@ void light_ground_map(const FrameBlock& frame, const DepthMaps& maps, LitPixels&
   lit.lights.assign(area(lit.at), whole);
   lit.diffuse.resize(area(lit.at));
   lit.mirrored.clear();
+  const Lighting lighting{frame, maps, all_lights, Sky::left_out, lit};
   for_bands(size, size, [&](const PixelRectangle& band) {
-    const ReceiverBlocks receivers = receivers_around(band, [&](int x, int y, Receivers& r) {
-      ground_map_receivers(frame, x, y, r);
-      return true;
-    });
-    put_lights(frame, maps, receivers, all_lights, band, lit);
-    for_blocks_of(band, receivers, [&](int x, int y, const Receivers& r) {
+    const ReceiverBlocks receivers = receivers_around(
+        band, 1, [&](int x, int y, Receivers& r) { return ground_map_receivers(frame, x, y, r); });
+    light_each_pixel(lighting, band, receivers);
+    receivers.for_each([&](int x, int y, const Receivers& r) {
+      const int px = x - block_width, py = y - block_height;
+      if (px < 0 || py < 0 || px >= band.width || py >= band.height) return;
       SkySeen seen;
       sky_seen_softly(frame, maps, r, seen);
-      put_sky(seen.diffuse, lit.at, x, y, lit.diffuse);
+      put_sky(seen.diffuse, lit.at, band.x + px, band.y + py, lit.diffuse);
     });
   });
 }

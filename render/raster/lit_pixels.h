@@ -8,6 +8,7 @@
 #include "render/raster/depth_maps.h"
 #include "render/raster/frame_block.h"
 #include "render/raster/ground_tiles.h"
+#include "render/raster/receivers.h"
 
 namespace lagomorph::render::raster {
 
@@ -21,16 +22,7 @@ struct LitPixels {
   std::vector<Parts> lights, diffuse, mirrored;  // the last two where they are asked for; else empty
 };
 
-/// A pixel of what surface_fragment says.
-struct SurfaceTexel {
-  std::uint32_t depth;        // bits of a float, along the view axis [m]
-  std::uint32_t normal;       // two fractions in [-1, 1] of 16 bits, on the octahedron
-  std::uint32_t flat_normal;  // likewise
-  std::uint32_t finish;       // lower half: 1 + 65534 times the roughness; upper: half float, see
-                              // Receivers::raised [m]; 0: nothing, or nothing that is lit
-};
-
-/// The smallest rectangle of whole blocks around one, in a picture of whole blocks or a little less.
+/// The smallest rectangle of whole blocks of quads around one, in a picture of whole blocks or a little less.
 PixelRectangle whole_blocks(const PixelRectangle&);
 
 /// Of the ground in tiles, where their lights may be hidden: the lights alone, of the rectangle around them.

@@ -84,26 +84,13 @@ constexpr float unlike_all = -3e9F;
 
 }  // namespace
 
-void ReceiverBlocks::resize(int block_columns, int block_rows) {
-  columns = block_columns, rows = block_rows;
-  const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-  blocks.resize(count);
-  empty.assign(count, 1);
-}
-
 void soft_shadow(const FrameBlock& frame, const DepthMaps& maps, int light, const ReceiverBlocks& at,
                  std::vector<float>& seen) {
   const int width = at.width(), height = at.height();
   Plane depth(width, height, unlike_all), tolerance(width, height, 0.0F), nearness(width, height, 0.0F),
       taps(width, height, 0.0F);
   bool any_blocked = false;
-  const auto for_blocks_at = [&](const auto& block) {
-    for (int k = 0; k < at.rows * at.columns; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      if (at.empty[i] == 0) block(k % at.columns * block_width, k / at.columns * block_height, at.blocks[i]);
-    }
-  };
-  for_blocks_at([&](int x, int y, const Receivers& r) {
+  at.for_each([&](int x, int y, const Receivers& r) {
     Blockers found;
     find_blockers(frame, maps, light, r, found);
     Lanes reach;
@@ -124,7 +111,7 @@ void soft_shadow(const FrameBlock& frame, const DepthMaps& maps, int light, cons
                    shared_nearness.row(y), shared_taps.row(y));
   }
   Plane blocked(width, height, 0.0F), share(width, height, 0.0F);
-  for_blocks_at([&](int x, int y, const Receivers& r) {
+  at.for_each([&](int x, int y, const Receivers& r) {
     Blockers found;
     shared_nearness.get(x, y, found.nearness);
     shared_taps.get(x, y, found.taps);
