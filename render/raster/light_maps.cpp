@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "render/ground_texture.h"
 #include "render/raster/caster_depths.h"
@@ -89,20 +90,15 @@ Sphere bounding_sphere(std::span<const std::vector<Vec3>> positions, const Eigen
 }  // namespace
 
 LightMaps::LightMaps(const RasterSettings& settings)
-    : settings_(settings), ground_seen_(GL_TEXTURE1, ground_map_size, ground_map_size) {
+    : settings_(settings), ground_lit_texture_(GL_TEXTURE1, ground_map_size, ground_map_size) {
   allocate_table(sky_table_, sky_table_size, 1, sky_irradiance_table(sky_table_size));
   allocate_table(coat_table_, coat_table_size, coat_table_size, coat_albedo_table(coat_table_size));
   const int levels = static_cast<int>(std::log2(ground_map_size)) + 1;
-  for (const Texture* texture : {&ground_ambient_, &ground_bounce_}) {
-    glBindTexture(GL_TEXTURE_2D, texture->id());
-    glTexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA16F, ground_map_size, ground_map_size);
-    sampling(GL_TEXTURE_2D, texture == &ground_bounce_ ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR, GL_LINEAR);
-  }
+  glBindTexture(GL_TEXTURE_2D, ground_bounce_.id());
+  glTexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA16F, ground_map_size, ground_map_size);
+  sampling(GL_TEXTURE_2D, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
   glBindFramebuffer(GL_FRAMEBUFFER, ground_target_.id());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, ground_ambient_.id(), 0);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, ground_bounce_.id(), 0);
-  const std::array<GLenum, 2> buffers = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-  glDrawBuffers(2, buffers.data());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, ground_bounce_.id(), 0);
   check_framebuffer("ground map");
 }
 
@@ -217,7 +213,8 @@ void LightMaps::draw(std::span<const MeshBuffers> meshes, std::span<const std::v
   if (has_meshes_) draw_sky_depths(block, casters, sky_map_size, depths_.sky);
   if (!ground_) return;
   light_ground_map(block, depths_, ground_lit_);
-  ground_seen_.take(ground_lit_);
+  ground_lit_texture_.take(ground_lit_);
+  ground_seen_ = raster::ground_seen(ground_lit_);
   bind(ground_target_, ground_map_size, ground_map_size);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
@@ -231,10 +228,11 @@ void LightMaps::draw(std::span<const MeshBuffers> meshes, std::span<const std::v
 }
 
 void LightMaps::bind_textures() const {
-  const Texture* const maps[] = {&sky_table_, &ground_ambient_, &ground_bounce_, &coat_table_};
-  for (GLenum unit = 0; unit < 4; ++unit) {
-    glActiveTexture(GL_TEXTURE2 + unit);
-    glBindTexture(GL_TEXTURE_2D, maps[unit]->id());
+  const std::pair<GLenum, const Texture*> maps[] = {
+      {GL_TEXTURE2, &sky_table_}, {GL_TEXTURE4, &ground_bounce_}, {GL_TEXTURE5, &coat_table_}};
+  for (const auto& [unit, map] : maps) {
+    glActiveTexture(unit);
+    glBindTexture(GL_TEXTURE_2D, map->id());
   }
   if (!sky_textures_) return;
   const Texture* const cubes[] = {&sky_textures_->irradiance_above, &sky_textures_->radiance_below,

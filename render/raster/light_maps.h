@@ -11,6 +11,7 @@
 #include "render/raster/lit_texture.h"
 #include "render/raster/mesh_buffers.h"
 #include "render/raster/programs.h"
+#include "render/raster/still_parts.h"
 #include "render/render_scene.h"
 #include "render/settings.h"
 
@@ -38,6 +39,8 @@ public:
             const FrameBlock&);
   /// The depth maps of what was drawn.
   const DepthMaps& depths() const { return depths_; }
+  /// What the ground under the meshes sees of the sky, of what was drawn.
+  const GroundSeen& ground_seen() const { return ground_seen_; }
   /// Binds all maps and tables where the shaders expect them.
   void bind_textures() const;
 
@@ -47,8 +50,8 @@ private:
   RasterSettings settings_;
   std::optional<Program> ground_program_;  // for features_
   LightFeatures features_;
-  Texture sky_table_, coat_table_, ground_ambient_, ground_bounce_;
-  LitTexture ground_seen_;
+  Texture sky_table_, coat_table_, ground_bounce_;
+  LitTexture ground_lit_texture_;
   /// A map of the sky, see sky_light.h.
   struct SkyTextures {
     Texture irradiance_above, radiance_below, lobes_above, lobes_below, picture;
@@ -60,6 +63,7 @@ private:
   std::vector<CasterGrid> casters_;
   DepthMaps depths_;
   LitPixels ground_lit_;
+  GroundSeen ground_seen_;
   bool has_meshes_ = false;
   bool ground_ = false;
 };

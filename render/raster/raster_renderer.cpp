@@ -108,7 +108,7 @@ private:
   void draw_meshes(const Program&, Which which = Which::all) const;
   bool ground_hides(const Camera&) const;
   void draw_seen(bool behind_ground) const;
-  void draw_background(const PixelRectangle& drawn);
+  void put_background(const PixelRectangle& drawn, std::span<float> color);
   struct LayerPass {
     const Program &count, &surface, &layer;
     GLenum weight_of_drawn;
@@ -306,18 +306,20 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
   const PixelRectangle around = {drawn.x - 2, drawn.y - 2, drawn.width + 4, drawn.height + 4};
   const PixelRectangle wanted = common_rectangle(seen_rectangle(camera, positions_, scene_), around);
   const PixelRectangle seen = common_rectangle(whole_blocks(common_rectangle(wanted, picture)), picture);
-  glScissor(drawn.x, drawn.y, drawn.width, drawn.height);
-  if (!settings_.region.empty()) glEnable(GL_SCISSOR_TEST);
-  draw_background(drawn);
+  std::vector<float>& color = image.add(color_channel, 3);
+  put_background(drawn, color);
   glScissor(seen.x, seen.y, seen.width, seen.height);
   glEnable(GL_SCISSOR_TEST);
+  targets->bind_color();
+  constexpr std::array<float, 4> nothing = {};
+  glClearBufferfv(GL_COLOR, 0, nothing.data());
   draw_seen(ground_hides(camera));
   gl_->targets->bind_seen_textures();
   draw_layers(
       seen, {gl_->programs->count, gl_->programs->surface, gl_->seen().layer, GL_ONE_MINUS_SRC_ALPHA, false});
   if (gl_->features.see_through) draw_see_through(seen);
   glDisable(GL_SCISSOR_TEST);
-  targets->read_color(image);
+  targets->read_color_over(seen, color);
   if (wants(depth_channel)) {
     draw_depth();
     targets->read_values(image.add(depth_channel, 1));
@@ -396,14 +398,15 @@ void RasterRenderer::draw_seen(bool behind_ground) const {
 }
 
 /// The background and the ground over it.
-void RasterRenderer::draw_background(const PixelRectangle& drawn) {
-  gl_->still->draw(block_);
-  gl_->targets->copy_color(gl_->still->picture(), drawn);
+void RasterRenderer::put_background(const PixelRectangle& drawn, std::span<float> color) {
   const std::vector<TileRun> tiles = touched_tiles(block_, gl_->maps.casters(), raster_.shadow_map, drawn);
+  const auto rows = std::minmax_element(tiles.begin(), tiles.end(),
+                                        [](const TileRun& a, const TileRun& b) { return a.lower < b.lower; });
+  const StillParts& still = tiles.empty() ? gl_->still->draw(block_, 0, 0)
+                                          : gl_->still->draw(block_, static_cast<int>(rows.first->lower),
+                                                             static_cast<int>(rows.second->upper));
   light_ground(block_, gl_->maps.depths(), tiles, lit_);
-  gl_->targets->take(lit_);
-  gl_->targets->bind_color();
-  gl_->still->draw_touched(tiles);
+  copy_less_taken(block_, still, gl_->maps.ground_seen(), tiles, lit_, drawn, color);
 }
 
 /// The bound samples that are seen, lit once a pixel and surface, into the picture or that of the peeled

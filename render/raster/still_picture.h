@@ -1,12 +1,12 @@
 #pragma once
 
 #include <optional>
-#include <span>
+#include <vector>
 
 #include "render/raster/frame_block.h"
 #include "render/raster/gl_objects.h"
-#include "render/raster/ground_tiles.h"
 #include "render/raster/programs.h"
+#include "render/raster/still_parts.h"
 
 namespace lagomorph::render::raster {
 
@@ -22,11 +22,9 @@ public:
   }
   /// The lights or the ground are others now.
   void forget() { seen_by_.reset(); }
-  /// Draws it where it is not there yet; the frame's block and all maps are bound.
-  void draw(const FrameBlock&);
-  const Texture& picture() const { return sized_->picture; }
-  /// The picture with the meshes' light, of these tiles, into the bound framebuffer of the same size.
-  void draw_touched(std::span<const TileRun>) const;
+  /// Draws it where it is not there yet; the frame's block and all maps are bound. What the meshes take is
+  /// there in these rows of pixels at least.
+  const StillParts& draw(const FrameBlock&, int first_row, int last_row);
 
 private:
   /// What it depends on beside the scene.
@@ -45,11 +43,18 @@ private:
 
   LightFeatures features_;
   int lights_;
-  Program still_, taken_;
+  void read_picture();
+  void read_light();
+  void read_rows(int first, int last);
+
+  Program still_, light_;
   std::optional<Sized> sized_;
   std::optional<View> seen_by_;
-  VertexArray no_attributes_, tiles_;
-  Buffer tile_buffer_;
+  VertexArray no_attributes_;
+  StillParts read_;
+  int first_row_ = 0, last_row_ = 0;  // of read_.planes
+  std::vector<float> values_;
+  std::vector<std::uint16_t> halves_;
 };
 
 }  // namespace lagomorph::render::raster

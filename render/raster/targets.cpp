@@ -76,12 +76,6 @@ Targets::Targets(int width, int height, int samples, bool colors)
   check_framebuffer("surfaces");
 }
 
-void Targets::copy_color(const Texture& from, const PixelRectangle& r) const {
-  if (r.width <= 0 || r.height <= 0) return;
-  glCopyImageSubData(from.id(), GL_TEXTURE_2D, 0, r.x, r.y, 0, color_.id(), GL_TEXTURE_2D, 0, r.x, r.y, 0,
-                     r.width, r.height, 1);
-}
-
 void Targets::read_surface(const PixelRectangle& r, std::vector<SurfaceTexel>& texels) const {
   texels.assign(static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height), {});
   const PixelRectangle there = common_rectangle(r, {0, 0, width_, height_});
@@ -161,11 +155,22 @@ void Targets::bind_depth() {
   has_depth_channel_ = true;
 }
 
-void Targets::read_color(Image& image) {
+void Targets::read_color_over(const PixelRectangle& r, std::span<float> color) {
+  if (r.width <= 0 || r.height <= 0) return;
+  const auto across = static_cast<std::size_t>(r.width), width = static_cast<std::size_t>(width_);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, color_target_.id());
-  pixels_.resize(4 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_FLOAT, pixels_.data());
-  copy_rows(pixels_, 4, 3, width_, height_, image.add("color", 3));
+  pixels_.resize(4 * across * static_cast<std::size_t>(r.height));
+  glReadPixels(r.x, r.y, r.width, r.height, GL_RGBA, GL_FLOAT, pixels_.data());
+  tbb::parallel_for(tbb::blocked_range<int>(0, r.height, 32), [&](const auto& rows) {
+    for (int row = rows.begin(); row != rows.end(); ++row) {
+      const float* in = pixels_.data() + 4 * across * static_cast<std::size_t>(row);
+      float* out = color.data() + 3 * (width * static_cast<std::size_t>(height_ - 1 - r.y - row) +
+                                       static_cast<std::size_t>(r.x));
+      for (std::size_t x = 0; x < across; ++x, in += 4, out += 3) {
+        for (std::size_t c = 0; c < 3; ++c) out[c] = in[c] + (1.0F - in[3]) * out[c];
+      }
+    }
+  });
 }
 
 void Targets::read_values(std::vector<float>& values) {

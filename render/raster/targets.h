@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "render/image.h"
@@ -28,10 +29,8 @@ public:
   void clear_seen() const;
   /// Binds those samples, and their colours, as the textures that the shaders read.
   void bind_seen_textures() const;
-  /// Binds the picture, linear colour, with another depth buffer.
+  /// Binds the picture of what is seen, linear colour times its cover, with another depth buffer.
   void bind_color() const { bind(color_target_, width_, height_); }
-  /// A rectangle of a texture like the picture into the picture.
-  void copy_color(const Texture& from, const PixelRectangle&) const;
   /// Binds the surfaces of one layer, SurfaceTexel, with the picture's depth buffer.
   void bind_surface() const { bind(surface_target_, width_, height_); }
   /// Those of a rectangle, which may reach beyond the picture; nothing is there.
@@ -51,8 +50,8 @@ public:
   void bind_peeled_color() const;
   void bind_peeled_color_texture() const;
 
-  /// The picture into the channel "color", rows from the top.
-  void read_color(Image&);
+  /// A rectangle of that picture over a linear colour, interleaved, rows from the top.
+  void read_color_over(const PixelRectangle&, std::span<float> color);
   /// The channel of one value a pixel, likewise.
   void read_values(std::vector<float>&);
 

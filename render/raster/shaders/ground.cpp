@@ -41,7 +41,7 @@ vec3 ground_normal(vec3 v) { return vec3(0.0, v.y > 0.0 ? 1.0 : -1.0, 0.0); }
 )";
 
 // The picture without the meshes, and what they can take from the ground in it, times the part of the ground
-// that does not fade: see taken_fragment. Highlights end where half floats do, so that a shadow leaves
+// that does not fade: see still_parts.h. Highlights end where half floats do, so that a shadow leaves
 // nothing of them.
 const char* const still_fragment = R"(
 layout(location = 0) out vec4 picture;
@@ -93,51 +93,14 @@ void main() {
 }
 )";
 
-// A run of tiles a instance: its left, lower, right and upper border [pixels], and a bit for each light that
-// meshes may hide there.
-const char* const tiles_vertex = R"(
-layout(location = 0) in vec4 run;
-layout(location = 1) in uint hidden;
-flat out uint any_hidden;
+// Irradiance on the ground of all the sky and from below.
+const char* const ground_light_fragment = R"(
+layout(location = 0) out vec4 open;
+layout(location = 1) out vec4 from_below;
 void main() {
-  vec2 at = vec2((gl_VertexID & 1) == 0 ? run.x : run.z, (gl_VertexID >> 1) == 0 ? run.y : run.w);
-  any_hidden = hidden;
-  gl_Position = vec4(2.0 * at * viewport.zw - 1.0, 0.0, 1.0);
-}
-)";
-
-// The still picture less what the meshes take from the ground: their shadows, and the sky that they hide.
-const char* const taken_fragment = R"(
-layout(binding = 14) uniform sampler2D still_picture;
-layout(binding = 15) uniform sampler2DArray still_parts;  // diffuse, mirrored, lights, mirrored mesh
-layout(binding = 0) uniform sampler2DArray seen_of_pixel;    // see layer_fragment
-flat in uint any_hidden;
-out vec4 color;
-
-vec4 still(int part) { return texelFetch(still_parts, ivec3(gl_FragCoord.xy, part), 0); }
-
-void main() {
-  vec3 x;
-  float depth;
-  meet_ground(x, depth);
-  vec3 n = ground_normal(towards_eye(x));
-  vec3 seen = ground_seen(ground_map_at(x));
-  vec4 diffuse = still(0);
-  vec3 albedo = diffuse.rgb / max(diffuse.w, 1e-6);
-  vec3 open = open_sky(n);
-  vec3 from_below = light_from_below(n, radiance_below_ground(n));
-  vec3 ambient = ambient_light(open, seen, from_below, albedo);
-  vec3 taken = diffuse.rgb * (open + from_below - ambient) + (1.0 - seen) * still(1).rgb;
-#ifdef SKY_MAP
-  taken -= (1.0 - seen) * ambient * still(2 + LIGHTS).rgb;
-#endif
-#if LIGHTS > 0
-  if (any_hidden != 0u) {
-    vec4 hidden = 1.0 - texelFetch(seen_of_pixel, ivec3(gl_FragCoord.xy, 0), 0);
-    for (int i = 0; i < LIGHTS; ++i) taken += hidden[i] * still(2 + i).rgb;
-  }
-#endif
-  color = vec4(max(texelFetch(still_picture, ivec2(gl_FragCoord.xy), 0).rgb - taken, 0.0), 1.0);
+  vec3 n = ground_normal(eye.w > 0.5 ? -forward.xyz : eye.xyz - ground_at.xyz);
+  open = vec4(open_sky(n), 1.0);
+  from_below = vec4(light_from_below(n, radiance_below_ground(n)), 1.0);
 }
 )";
 
@@ -158,26 +121,21 @@ void main() {
 }
 )";
 
-// On the square of ground under the meshes: the part of the sky that is seen, and the radiance sent up.
+// On the square of ground under the meshes: the radiance sent up.
 const char* const ground_map_fragment = R"(
 layout(binding = 1) uniform sampler2DArray seen_of_texel;  // of lights and sky
-layout(location = 0) out vec4 ambient;
-layout(location = 1) out vec4 bounce;
+layout(location = 0) out vec4 bounce;
 void main() {
   vec2 at = gl_FragCoord.xy / counts.w;
   vec3 x = vec3((at.x - ground_map.z) / ground_map.x, ground.x, (at.y - ground_map.w) / ground_map.x);
   vec3 n = vec3(0.0, 1.0, 0.0);
   vec4 lights_seen = texelFetch(seen_of_texel, ivec3(gl_FragCoord.xy, 0), 0);
   vec3 seen = texelFetch(seen_of_texel, ivec3(gl_FragCoord.xy, 1), 0).rgb;
-  // Outside of the map all is seen; meet that at its border.
-  vec2 edge = smoothstep(0.0, 0.1, min(at, 1.0 - at));
-  seen = mix(vec3(1.0), seen, edge.x * edge.y);
   vec3 light = seen * open_sky(n);
   for (int i = 0; i < int(counts.x); ++i) {
     vec3 direction;
     light += lights[i].radiance.rgb * rectangle_irradiance(lights[i], x, n, direction) * lights_seen[i];
   }
-  ambient = vec4(seen, 1.0);
   bounce = vec4(ground_color_at(x, mat2(ground_map.y / sqrt(12.0))) / PI * light, 1.0);  // a metal's too, spread
 }
 )";

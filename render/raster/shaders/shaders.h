@@ -20,8 +20,7 @@ extern const char* const emitter_vertex;
 
 extern const char* const seen_fragment;
 extern const char* const still_fragment;
-extern const char* const tiles_vertex;
-extern const char* const taken_fragment;
+extern const char* const ground_light_fragment;
 extern const char* const count_fragment;
 extern const char* const surface_fragment;
 extern const char* const layer_fragment;

@@ -7,7 +7,6 @@ namespace lagomorph::render::raster::shaders {
 // comes what the ground reflects, or the horizon, or the map.
 const char* const sky = R"(
 layout(binding = 2) uniform sampler2D sky_table;
-layout(binding = 3) uniform sampler2D ground_ambient;
 layout(binding = 4) uniform sampler2D ground_bounce;
 
 #ifdef SKY_MAP
@@ -69,17 +68,6 @@ struct SkySeen {
 };
 
 vec2 ground_map_at(vec3 x) { return x.xz * ground_map.x + ground_map.zw; }
-
-// Part of the sky that a place of the ground's map sees; all of it beyond. The mean over half a texel to all sides counts
-// the four pixels of a quad alike, wherever it is, so that nothing is left of their different points.
-vec3 ground_seen(vec2 at) {
-  if (any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0)))) return vec3(1.0);
-  float half_texel = 0.5 / counts.w;
-  vec3 sum = vec3(0.0);
-  for (int k = 0; k < 4; ++k)
-    sum += texture(ground_ambient, at + half_texel * (2.0 * vec2(k & 1, k >> 1) - 1.0)).rgb;
-  return 0.25 * sum;
-}
 
 // Mean radiance from below the horizon on the ground itself, see radiance_from_below().
 vec4 radiance_below_ground(vec3 n) {

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/raster/ground_tiles.h"
+#include "render/raster/lit_pixels.h"
+#include "render/raster/view_range.h"
+
+namespace lagomorph::render::raster {
+
+/// The picture without the meshes, and what they can take from the ground in it (still_fragment): rows from
+/// below.
+struct StillParts {
+  int width = 0, height = 0;
+  int lights = 0;
+  bool sky_is_map = false;
+  std::vector<float> picture;  // linear colour, interleaved
+  /// Half floats, a plane each, in the order of still_fragment's outputs: red, green, blue of what the sky's
+  /// light becomes, the same of a white ground; three colours of the sky mirrored, of each light, and of a
+  /// map of the sky the mirrored mesh.
+  std::vector<std::uint16_t> planes;
+  Color open = Color::Zero(), from_below = Color::Zero();  // irradiance of the ground with nothing before it
+
+  std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+};
+
+/// The part of the sky that the ground's map sees, rows from below: three colours a texel.
+struct GroundSeen {
+  int size = 0;
+  std::vector<Color> texels;
+};
+
+/// Of what light_ground_map() found. Outside of the map all is seen; it meets that at its border.
+GroundSeen ground_seen(const LitPixels&);
+
+/// The drawn rectangle of the still picture into `color`, interleaved, rows from the top, in these tiles less
+/// what the meshes take: their shadows (light_ground()) and the sky that they hide.
+void copy_less_taken(const FrameBlock&, const StillParts&, const GroundSeen&, std::span<const TileRun>,
+                     const LitPixels&, const PixelRectangle& drawn, std::span<float> color);
+
+}  // namespace lagomorph::render::raster
