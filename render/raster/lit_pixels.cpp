@@ -6,7 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "render/raster/quad_parts.h"
+#include "render/raster/coarse_parts.h"
 #include "render/raster/sky_visibility.h"
 #include "render/raster/soft_shadow.h"
 
@@ -14,7 +14,8 @@ namespace lagomorph::render::raster {
 namespace {
 
 constexpr Parts whole = {65535, 65535, 65535, 65535};
-constexpr int quads_width = 2 * block_width, quads_height = 2 * block_height;  // of a block of quads [pixels]
+constexpr int cells_width = 2 * block_width,
+              cells_height = 2 * block_height;  // of a block of cells of a surface [pixels]
 
 std::uint16_t fraction(float x) {
   return static_cast<std::uint16_t>(std::clamp(x * 65535.0F + 0.5F, 0.0F, 65535.0F));
@@ -34,6 +35,9 @@ ReceiverBlocks receivers_around(const PixelRectangle& part, int step, const Bloc
   }
   return all;
 }
+
+/// What cells say of a pixel.
+enum class Found { nothing_there, yes, no };
 
 /// Calls part() for bands of a rectangle of whole blocks of quads, on all threads.
 template <class Part>
@@ -60,66 +64,65 @@ void put_sky(const Lanes3& seen, const PixelRectangle& at, int x, int y, std::ve
   }
 }
 
-constexpr std::uint32_t all_lights = ~0U;
 enum class Sky { left_out, diffuse, mirrored_too };
 
 /// What is asked for of the pixels of a part, and where it goes; rectangles count from `lit.at`.
 struct Lighting {
   const FrameBlock& frame;
   const DepthMaps& maps;
-  std::uint32_t lights;  // those whose bit is set
   Sky sky;
   LitPixels& lit;
-
-  bool wants(std::size_t light) const { return (lights >> light & 1U) != 0; }
 };
 
-/// Calls to(light, seen) for each that is asked for: the parts that soft_shadow() finds.
+/// Calls to(light, seen) for each: the parts that soft_shadow() finds.
 template <class To>
 void for_lights(const Lighting& l, const ReceiverBlocks& receivers, const To& to) {
   std::vector<float> seen;
   for (std::size_t i = 0; i < l.maps.lights.size(); ++i) {
-    if (!l.wants(i)) continue;
     soft_shadow(l.frame, l.maps, static_cast<int>(i), receivers, seen);
     to(i, seen);
   }
 }
 
-QuadParts parts_of_quads(const Lighting& l, const ReceiverBlocks& quads) {
-  QuadParts parts(quads);
-  for_lights(l, quads, [&](std::size_t light, const std::vector<float>& seen) {
+constexpr std::size_t first_sky = most_lights, first_mirrored = first_sky + 3;
+
+template <std::size_t N>
+CoarseParts<N> parts_of_cells(const Lighting& l, const ReceiverBlocks& cells, int step) {
+  CoarseParts<N> parts(cells, step);
+  for_lights(l, cells, [&](std::size_t light, const std::vector<float>& seen) {
     std::size_t k = 0;
     for (int y = 0; y < parts.height(); ++y) {
       for (int x = 0; x < parts.width(); ++x) parts.at(x, y)[light] = seen[k++];
     }
   });
-  if (l.sky != Sky::left_out) {
-    quads.for_each([&](int x, int y, const Receivers& r) {
+  if constexpr (N > first_sky) {
+    cells.for_each([&](int x, int y, const Receivers& r) {
+      if (y < block_height) return;  // nobody's neighbour to the right or above
       SkySeen seen;
       sky_seen(l.frame, l.maps, r, seen);
-      for (int lane = 0; lane < lanes; ++lane) {
-        SeenParts& p = parts.at(x + column(lane), y + row(lane));
-        for (const auto& [first, of] :
-             {std::pair{first_sky, &seen.diffuse}, {first_mirrored, &seen.mirrored}}) {
-          const Vec3 v = of->at(lane);
-          p[first] = v.x(), p[first + 1] = v.y(), p[first + 2] = v.z();
+      const auto put = [&](std::size_t first, const Lanes3& of) {
+        for (int lane = 0; lane < lanes; ++lane) {
+          const Vec3 v = of.at(lane);
+          float* to = parts.at(x + column(lane), y + row(lane)).data() + first;
+          to[0] = v.x(), to[1] = v.y(), to[2] = v.z();
         }
-      }
+      };
+      put(first_sky, seen.diffuse);
+      if constexpr (N > first_mirrored) put(first_mirrored, seen.mirrored);
     });
   }
-  parts.finish(quads);
+  parts.finish(cells);
   return parts;
 }
 
-void put_parts(const Lighting& l, const SeenParts& seen, std::size_t pixel) {
-  for (std::size_t i = 0; i < l.maps.lights.size(); ++i) {
-    if (l.wants(i)) l.lit.lights[pixel][i] = fraction(seen[i]);
-  }
+template <std::size_t N>
+void put_parts(const std::array<float, N>& seen, std::size_t pixel, LitPixels& lit) {
+  for (std::size_t i = 0; i < most_lights; ++i) lit.lights[pixel][i] = fraction(seen[i]);
   const auto sky = [&](std::size_t first) {
     return Parts{fraction(seen[first]), fraction(seen[first + 1]), fraction(seen[first + 2]), 65535};
   };
-  if (l.sky != Sky::left_out) l.lit.diffuse[pixel] = sky(first_sky);
-  if (l.sky == Sky::mirrored_too) l.lit.mirrored[pixel] = sky(first_mirrored);
+  if constexpr (N > first_sky) lit.diffuse[pixel] = sky(first_sky);
+  if constexpr (N > first_mirrored) lit.mirrored[pixel] = sky(first_mirrored);
 }
 
 /// Pixel by pixel, of those blocks of the part that are not empty; a block more is around.
@@ -148,28 +151,34 @@ void light_each_pixel(const Lighting& l, const PixelRectangle& part, const Recei
   });
 }
 
-/// By quads where that will do. receivers(x, y, step, r) are those of a block at pixel (x, y) of the part;
-/// shared(x, y, parts, seen) what the quads say of a pixel, false where they say nothing.
-template <class BlockReceivers, class Shared>
-void light_part(const Lighting& l, const PixelRectangle& part, const BlockReceivers& receivers,
+/// By cells of step x step pixels where that will do. receivers(x, y, step, r) are those of a block at pixel
+/// (x, y) of the part; shared(x, y, cells, seen) what the cells say of a pixel, false where they say nothing.
+template <std::size_t N, class BlockReceivers, class Shared>
+void light_part(const Lighting& l, const PixelRectangle& part, int step, const BlockReceivers& receivers,
                 const Shared& shared) {
   const PixelRectangle own = {0, 0, part.width, part.height};
-  const ReceiverBlocks quads =
-      receivers_around(own, 2, [&](int x, int y, Receivers& r) { return receivers(x, y, 2, r); });
-  const QuadParts parts = parts_of_quads(l, quads);
+  const ReceiverBlocks cells =
+      receivers_around(own, step, [&](int x, int y, Receivers& r) { return receivers(x, y, step, r); });
+  const CoarseParts<N> parts = parts_of_cells<N>(l, cells, step);
+  // The cells' border.
+  const int right = step * block_width, above = step * block_height;
   const int columns = part.width / block_width;
   std::vector<char> alone(static_cast<std::size_t>(columns * (part.height / block_height)), 0);
   bool any = false;
-  SeenParts seen;
+  std::array<float, N> seen;
   for (int y = 0; y < part.height; ++y) {
     for (int x = 0; x < part.width; ++x) {
       const auto k = static_cast<std::size_t>(y / block_height * columns + x / block_width);
       if (alone[k] != 0) continue;
-      if (shared(x, y, parts, seen)) {
-        put_parts(l, seen, pixel_of(l.lit.at, part.x + x, part.y + y));
-      } else {
-        alone[k] = 1;
-        any = true;
+      switch (shared(x, y, parts, x + right, y + above, seen)) {
+        case Found::nothing_there:
+          break;
+        case Found::yes:
+          put_parts(seen, pixel_of(l.lit.at, part.x + x, part.y + y), l.lit);
+          break;
+        case Found::no:
+          alone[k] = 1, any = true;
+          break;
       }
     }
   }
@@ -182,68 +191,133 @@ void light_part(const Lighting& l, const PixelRectangle& part, const BlockReceiv
       }));
 }
 
+constexpr int ground_step = 4, surface_step = 2;
+
+/// Of tiles, those that are in runs in which lights may be hidden.
+class HiddenTiles {
+public:
+  HiddenTiles(std::span<const TileRun> runs) {
+    int left = 1 << 30, lower = left, right = 0, upper = 0;
+    for (const TileRun& run : runs) {
+      if (run.lights_hidden == 0) continue;
+      left = std::min(left, static_cast<int>(run.left));
+      lower = std::min(lower, static_cast<int>(run.lower));
+      right = std::max(right, static_cast<int>(run.right));
+      upper = std::max(upper, static_cast<int>(run.upper));
+    }
+    if (right <= left) return;
+    around_ = {left, lower, right - left, upper - lower};
+    columns_ = around_.width / tile_size;
+    hidden_.assign(static_cast<std::size_t>(columns_ * (around_.height / tile_size)), 0);
+    for (const TileRun& run : runs) {
+      if (run.lights_hidden == 0) continue;
+      const int row = (static_cast<int>(run.lower) - lower) / tile_size;
+      for (int x = static_cast<int>(run.left) - left; x < static_cast<int>(run.right) - left; x += tile_size)
+        hidden_[static_cast<std::size_t>(row * columns_ + x / tile_size)] = 1;
+    }
+  }
+  const PixelRectangle& around() const { return around_; }
+  /// Whether any of the tiles that a rectangle, from around()'s corner, touches is one.
+  bool touch(int x, int y, int width, int height) const {
+    const int first = std::max(x, 0) / tile_size, last = std::min((x + width - 1) / tile_size, columns_ - 1);
+    const int low = std::max(y, 0) / tile_size;
+    const int high = std::min((y + height - 1) / tile_size, around_.height / tile_size - 1);
+    for (int j = low; j <= high; ++j) {
+      for (int i = first; i <= last; ++i) {
+        if (hidden_[static_cast<std::size_t>(j * columns_ + i)] != 0) return true;
+      }
+    }
+    return false;
+  }
+
+private:
+  PixelRectangle around_;
+  int columns_ = 0;
+  std::vector<char> hidden_;
+};
+
 }  // namespace
 
 PixelRectangle whole_blocks(const PixelRectangle& r) {
   const auto down = [](int x, int step) { return x / step * step; };
   const auto up = [](int x, int step) { return (x + step - 1) / step * step; };
-  const int x = down(r.x, quads_width), y = down(r.y, quads_height);
-  return {x, y, up(r.x + r.width, quads_width) - x, up(r.y + r.height, quads_height) - y};
+  const int x = down(r.x, cells_width), y = down(r.y, cells_height);
+  return {x, y, up(r.x + r.width, cells_width) - x, up(r.y + r.height, cells_height) - y};
 }
 
 void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<const TileRun> runs,
                   LitPixels& lit) {
-  int left = 1 << 30, lower = left, right = 0, upper = 0;
-  for (const TileRun& run : runs) {
-    if (run.lights_hidden == 0) continue;
-    left = std::min(left, static_cast<int>(run.left));
-    lower = std::min(lower, static_cast<int>(run.lower));
-    right = std::max(right, static_cast<int>(run.right));
-    upper = std::max(upper, static_cast<int>(run.upper));
-  }
-  lit.at = right > left ? PixelRectangle{left, lower, right - left, upper - lower} : PixelRectangle{};
+  const HiddenTiles tiles(runs);
+  lit.at = tiles.around();
   lit.lights.assign(area(lit.at), whole);
   lit.diffuse.clear();
   lit.mirrored.clear();
-  tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t k) {
-    const TileRun& run = runs[k];
-    if (run.lights_hidden == 0) return;
-    const int x0 = static_cast<int>(run.left), y0 = static_cast<int>(run.lower);
-    const PixelRectangle part{x0 - lit.at.x, y0 - lit.at.y, static_cast<int>(run.right) - x0,
-                              static_cast<int>(run.upper) - y0};
-    light_part(
-        {frame, maps, run.lights_hidden, Sky::left_out, lit}, part,
-        [&](int x, int y, int step, Receivers& r) {
-          return ground_receivers(frame, x0 + x, y0 + y, step, r);
-        },
-        [](int x, int y, const QuadParts& quads, SeenParts& seen) {
-          return quads.find(x + quads_width, y + quads_height, 0.0F, Vec3::UnitY(), 1.0F, seen);
-        });
+  for_bands(lit.at.width, lit.at.height, [&](const PixelRectangle& band) {
+    const auto receivers = [&](int x, int y, int step, Receivers& r) {
+      return tiles.touch(x, band.y + y, step * block_width, step * block_height) &&
+             ground_receivers(frame, lit.at.x + x, lit.at.y + band.y + y, step, r);
+    };
+    const auto shared = [&](int x, int y, const CoarseParts<most_lights>& cells, int at_x, int at_y,
+                            std::array<float, most_lights>& seen) {
+      if (!tiles.touch(x, band.y + y, 1, 1)) return Found::nothing_there;
+      return cells.find(at_x, at_y, 0.0F, Vec3::UnitY(), 1.0F, seen) ? Found::yes : Found::no;
+    };
+    light_part<most_lights>({frame, maps, Sky::left_out, lit}, band, ground_step, receivers, shared);
   });
 }
 
+namespace {
+
+/// N: parts, see CoarseParts.
+template <std::size_t N>
+void light_surfaces_by_cells(const Lighting& l, const SurfaceTexels& surfaces) {
+  for_bands(surfaces.at.width, surfaces.at.height, [&](const PixelRectangle& band) {
+    const auto receivers = [&](int x, int y, int step, Receivers& r) {
+      return surface_receivers(l.frame, l.sky == Sky::mirrored_too, surfaces, band.x + x, band.y + y, step,
+                               r);
+    };
+    const auto shared = [&](int x, int y, const CoarseParts<N>& cells, int at_x, int at_y,
+                            std::array<float, N>& seen) {
+      const SurfaceTexel* t = surfaces.find(band.x + x, band.y + y);
+      if (t == nullptr) return Found::nothing_there;
+      const auto depth = std::bit_cast<float>(t->depth);
+      return cells.find(at_x, at_y, depth, normal_of(*t), 10.0F * pixel_footprint(l.frame, depth), seen)
+                 ? Found::yes
+                 : Found::no;
+    };
+    light_part<N>(l, band, surface_step, receivers, shared);
+  });
+}
+
+void light_surfaces_each(const Lighting& l, const SurfaceTexels& surfaces) {
+  for_bands(surfaces.at.width, surfaces.at.height, [&](const PixelRectangle& band) {
+    light_each_pixel(l, band,
+                     receivers_around({0, 0, band.width, band.height}, 1, [&](int x, int y, Receivers& r) {
+                       return surface_receivers(l.frame, l.sky == Sky::mirrored_too, surfaces, band.x + x,
+                                                band.y + y, 1, r);
+                     }));
+  });
+}
+
+}  // namespace
+
 bool light_surfaces(const FrameBlock& frame, const DepthMaps& maps, const PixelRectangle& rectangle,
                     std::span<const SurfaceTexel> texels, LitPixels& lit) {
-  if (std::all_of(texels.begin(), texels.end(), [](const SurfaceTexel& t) { return t.depth == 0; }))
-    return false;
+  const auto seen =
+      std::count_if(texels.begin(), texels.end(), [](const SurfaceTexel& t) { return t.depth != 0; });
+  if (seen == 0) return false;
   lit.at = rectangle;
   for (std::vector<Parts>* parts : {&lit.lights, &lit.diffuse}) parts->resize(area(rectangle));
   lit.mirrored.resize(maps.sky_is_map ? area(rectangle) : 0);
   const SurfaceTexels surfaces{rectangle, texels};
-  for_bands(rectangle.width, rectangle.height, [&](const PixelRectangle& band) {
-    light_part(
-        {frame, maps, all_lights, maps.sky_is_map ? Sky::mirrored_too : Sky::diffuse, lit}, band,
-        [&](int x, int y, int step, Receivers& r) {
-          return surface_receivers(frame, maps.sky_is_map, surfaces, band.x + x, band.y + y, step, r);
-        },
-        [&](int x, int y, const QuadParts& quads, SeenParts& seen) {
-          const SurfaceTexel* t = surfaces.find(band.x + x, band.y + y);
-          if (t == nullptr) return true;
-          const auto depth = std::bit_cast<float>(t->depth);
-          return quads.find(x + quads_width, y + quads_height, depth, normal_of(*t),
-                            10.0F * pixel_footprint(frame, depth), seen);
-        });
-  });
+  const Lighting lighting{frame, maps, maps.sky_is_map ? Sky::mirrored_too : Sky::diffuse, lit};
+  if (static_cast<std::size_t>(seen) < texels.size() / 20) {
+    light_surfaces_each(lighting, surfaces);  // edges, where cells have no neighbours
+  } else if (maps.sky_is_map) {
+    light_surfaces_by_cells<first_mirrored + 3>(lighting, surfaces);
+  } else {
+    light_surfaces_by_cells<first_sky + 3>(lighting, surfaces);
+  }
   return true;
 }
 
@@ -253,7 +327,7 @@ void light_ground_map(const FrameBlock& frame, const DepthMaps& maps, LitPixels&
   lit.lights.assign(area(lit.at), whole);
   lit.diffuse.resize(area(lit.at));
   lit.mirrored.clear();
-  const Lighting lighting{frame, maps, all_lights, Sky::left_out, lit};
+  const Lighting lighting{frame, maps, Sky::left_out, lit};
   for_bands(size, size, [&](const PixelRectangle& band) {
     const ReceiverBlocks receivers = receivers_around(
         band, 1, [&](int x, int y, Receivers& r) { return ground_map_receivers(frame, x, y, r); });

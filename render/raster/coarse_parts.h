@@ -1,0 +1,124 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "render/raster/receivers.h"
+
+namespace lagomorph::render::raster {
+
+/// What one pixel of each cell of step x step pixels sees, to be shared by all of them where shadows are wide
+/// and the surface goes on: few lookups in place of many. Between cells it is bilinear. Of each there are N
+/// parts: of the lights, then of the sky's colours, then of those mirrored.
+template <std::size_t N>
+class CoarseParts {
+public:
+  using Parts = std::array<float, N>;
+
+  /// All is seen, of receivers `step` pixels apart.
+  CoarseParts(const ReceiverBlocks& cells, int step)
+      : step_(step), width_(cells.width()), height_(cells.height()) {
+    const auto count = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    Parts all;
+    all.fill(1.0F);
+    parts_.assign(count, all);
+    surfaces_.assign(count, {Vec3::UnitY(), nowhere});
+    kinds_.assign(count, Kind::open);
+    cells.for_each([&](int x, int y, const Receivers& r) {
+      for (int lane = 0; lane < lanes; ++lane) {
+        const auto l = static_cast<std::size_t>(lane);
+        if (r.there[l] != 0)
+          surfaces_[index(x + column(lane), y + row(lane))] = {r.normal.at(lane), r.depth[l]};
+      }
+    });
+  }
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  Parts& at(int x, int y) { return parts_[index(x, y)]; }
+
+  /// When all is put: finds where it is not smooth.
+  void finish(const ReceiverBlocks& cells) {
+    cells.for_each([&](int x0, int y0, const Receivers&) {
+      for (int y = y0; y < std::min(y0 + block_height, height_ - 1); ++y) {
+        for (int x = x0; x < std::min(x0 + block_width, width_ - 1); ++x) kinds_[index(x, y)] = kind(x, y);
+      }
+    });
+  }
+
+  /// What pixel (x, y) from that of cell (0, 0) sees; returns false where its cells do not say it: they see
+  /// too different parts, or other surfaces. `depth` and `normal` are the pixel's own, `reach` the difference
+  /// in depth within which the surface goes on [m].
+  bool find(int x, int y, float depth, const Vec3& normal, float reach, Parts& seen) const {
+    const int cx = x / step_, cy = y / step_;
+    const std::size_t cell = index(cx, cy);
+    if (kinds_[cell] == Kind::rough) return false;
+    if (kinds_[cell] == Kind::open) {
+      seen.fill(1.0F);
+      return true;
+    }
+    const float right = static_cast<float>(x % step_) / static_cast<float>(step_);
+    const float above = static_cast<float>(y % step_) / static_cast<float>(step_);
+    seen.fill(0.0F);
+    float total = 0.0F;
+    for (int j = 0; j < 2; ++j) {
+      for (int i = 0; i < 2; ++i) {
+        const float weight = (i == 0 ? 1.0F - right : right) * (j == 0 ? 1.0F - above : above);
+        if (weight == 0.0F) continue;
+        const std::size_t c = index(cx + i, cy + j);
+        const Surface& s = surfaces_[c];
+        if (std::abs(s.depth - depth) > reach || s.normal.dot(normal) < least_alike) continue;
+        for (std::size_t k = 0; k < N; ++k) seen[k] += weight * parts_[c][k];
+        total += weight;
+      }
+    }
+    if (total == 0.0F) return false;
+    for (float& part : seen) part /= total;
+    return true;
+  }
+
+private:
+  /// Cells whose parts differ by more than this from their neighbours' are lit pixel by pixel: those of
+  /// shadows whose edges are narrower than some ten cells.
+  static constexpr float most_difference = 0.1F;
+  /// Cosine of the angle from which on two normals are of different surfaces.
+  static constexpr float least_alike = 0.9F;
+  static constexpr float nowhere = 1e9F;
+
+  struct Surface {
+    Vec3 normal;
+    float depth;  // [m]
+  };
+  /// With its neighbours to the right and above: all of everything is seen, or not.
+  enum class Kind : char { open, smooth, rough };
+
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+
+  Kind kind(int x, int y) const {
+    const Parts& a = parts_[index(x, y)];
+    float most = 0.0F, least_seen = 1.0F;
+    for (const std::size_t other : {index(x, y), index(x + 1, y), index(x, y + 1), index(x + 1, y + 1)}) {
+      const Parts& b = parts_[other];
+      float difference = 0.0F;
+      for (std::size_t k = 0; k < N; ++k) {
+        difference = std::max(difference, std::abs(a[k] - b[k]));
+        least_seen = std::min(least_seen, b[k]);
+      }
+      if (surfaces_[other].depth < nowhere) most = std::max(most, difference);
+    }
+    if (most > most_difference) return Kind::rough;
+    return least_seen < 1.0F ? Kind::smooth : Kind::open;
+  }
+
+  int step_, width_, height_;
+  std::vector<Parts> parts_;
+  std::vector<Surface> surfaces_;
+  std::vector<Kind> kinds_;
+};
+
+}  // namespace lagomorph::render::raster
