@@ -30,7 +30,7 @@ struct SeenPrograms {
 struct PeelPrograms {
   PeelPrograms(int multisample, bool colors, const LightFeatures&);
 
-  Program mesh, count, surface, layer, composite;
+  Program mesh, surface, layer, composite;
 };
 
 /// For shaders of meshes whose vertices have colours.
@@ -41,7 +41,7 @@ struct Programs {
   Programs(int multisample, const LightFeatures&);
 
   SeenPrograms seen;
-  Program ground_cover, count, surface, mesh_depth, ground_depth;
+  Program ground_cover, surface, mesh_depth, ground_depth;
 };
 
 }  // namespace lagomorph::render::raster

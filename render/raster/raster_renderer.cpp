@@ -110,7 +110,7 @@ private:
   void draw_seen(bool behind_ground) const;
   void put_background(const PixelRectangle& drawn, std::span<float> color);
   struct LayerPass {
-    const Program &count, &surface, &layer;
+    const Program &surface, &layer;
     GLenum weight_of_drawn;
     bool peeled;
   };
@@ -135,7 +135,7 @@ private:
   std::vector<std::vector<Vec3>> positions_;  // of each mesh
   std::vector<int> body_ids_;                 // of each mesh
   FrameBlock block_{};
-  std::vector<SurfaceTexel> surfaces_;  // of the layer at work
+  std::vector<SurfaceTexel> surfaces_;  // the first layer's
   LitPixels lit_;                       // likewise
   bool lights_are_stale_ = true;
   bool has_ground_ = false;  // the scene; scene_ has it where it is drawn
@@ -315,8 +315,7 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
   glClearBufferfv(GL_COLOR, 0, nothing.data());
   draw_seen(ground_hides(camera));
   gl_->targets->bind_seen_textures();
-  draw_layers(
-      seen, {gl_->programs->count, gl_->programs->surface, gl_->seen().layer, GL_ONE_MINUS_SRC_ALPHA, false});
+  draw_layers(seen, {gl_->programs->surface, gl_->seen().layer, GL_ONE_MINUS_SRC_ALPHA, false});
   if (gl_->features.see_through) draw_see_through(seen);
   glDisable(GL_SCISSOR_TEST);
   targets->read_color_over(seen, color);
@@ -418,31 +417,24 @@ void RasterRenderer::draw_layers(const PixelRectangle& seen, const LayerPass& pa
   glDisable(GL_CULL_FACE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
-  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   targets.bind_surface();
-  pass.count.use();
+  pass.surface.use();
   draw_full_screen();
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthFunc(GL_LESS);
+  targets.read_surface(blocks, surfaces_);
+  if (!light_surfaces(block_, gl_->maps.depths(), blocks, surfaces_, lit_)) return;
+  targets.take(lit_);
+  targets.bind_surface_texture();
+  pass.peeled ? targets.bind_peeled_color() : targets.bind_color();
   glDepthMask(GL_FALSE);
-  constexpr std::array<GLuint, 4> nothing = {};
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, pass.weight_of_drawn);
+  pass.layer.use();
   for (int i = 0; i < raster_.multisample; ++i) {
-    targets.bind_surface();
-    glClearBufferuiv(GL_COLOR, 0, nothing.data());
-    pass.surface.use();
-    glUniform1i(pass.surface.location("layer"), i);
-    draw_full_screen();
-    targets.read_surface(blocks, surfaces_);
-    if (!light_surfaces(block_, gl_->maps.depths(), blocks, surfaces_, lit_)) break;
-    targets.take(lit_);
-    pass.peeled ? targets.bind_peeled_color() : targets.bind_color();
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, pass.weight_of_drawn);
-    pass.layer.use();
     glUniform1i(pass.layer.location("layer"), i);
     draw_full_screen();
-    glDisable(GL_BLEND);
   }
+  glDisable(GL_BLEND);
   glDepthMask(GL_TRUE);
 }
 
@@ -470,7 +462,7 @@ void RasterRenderer::draw_see_through(const PixelRectangle& seen) {
     glGetQueryObjectuiv(query.id(), GL_QUERY_RESULT, &any);
     if (any == 0) break;
     targets.bind_peeled_textures(peel % 2);
-    draw_layers(seen, {programs.count, programs.surface, programs.layer, GL_ONE, true});
+    draw_layers(seen, {programs.surface, programs.layer, GL_ONE, true});
   }
   targets.bind_color();
   targets.bind_peeled_color_texture();

@@ -71,9 +71,16 @@ Targets::Targets(int width, int height, int samples, bool colors)
   bind_surface();
   glBindTexture(GL_TEXTURE_2D, surface_.id());
   glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32UI, width, height);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, surface_.id(), 0);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.id());
   check_framebuffer("surfaces");
+}
+
+void Targets::bind_surface_texture() const {
+  glActiveTexture(GL_TEXTURE15);
+  glBindTexture(GL_TEXTURE_2D, surface_.id());
 }
 
 void Targets::read_surface(const PixelRectangle& r, std::vector<SurfaceTexel>& texels) const {

@@ -31,8 +31,10 @@ public:
   void bind_seen_textures() const;
   /// Binds the picture of what is seen, linear colour times its cover, with another depth buffer.
   void bind_color() const { bind(color_target_, width_, height_); }
-  /// Binds the surfaces of one layer, SurfaceTexel, with the picture's depth buffer.
+  /// Binds the surfaces of the first layer, SurfaceTexel, with the picture's depth buffer.
   void bind_surface() const { bind(surface_target_, width_, height_); }
+  /// Binds those as the texture that the shaders read.
+  void bind_surface_texture() const;
   /// Those of a rectangle, which may reach beyond the picture; nothing is there.
   void read_surface(const PixelRectangle&, std::vector<SurfaceTexel>&) const;
   /// Makes what was found of lights and sky the texture that the shaders read.

@@ -204,11 +204,6 @@ Layers sort_samples() {
 }
 )";
 
-// The number of a pixel's layers as a depth, so that the passes that light them skip all others.
-const char* const count_fragment = R"(
-void main() { gl_FragDepth = 0.125 * float(sort_samples().count); }
-)";
-
 const char* const layer_vertex = R"(
 uniform int layer;
 void main() {
@@ -240,22 +235,24 @@ LayerPoint layer_point(Layers l, int layer) {
 }
 )";
 
-// A layer's surface, for the CPU to find what it sees of the lights and the sky: SurfaceTexel of
-// lit_pixels.h. Point and plane are those of one sample, for the mean of two triangles' is on neither.
+// The first layer's surface, for the CPU to find what it sees of the lights and the sky: SurfaceTexel of
+// receivers.h. Point and plane are those of one sample, for the mean of two triangles' is on neither. The number
+// of the pixel's layers is its depth, so that the passes that light them skip all others.
 const char* const surface_fragment = R"(
-uniform int layer;
 out uvec4 texel;
 void main() {
   Layers l = sort_samples();
-  LayerPoint p = layer_point(l, layer);
+  gl_FragDepth = 0.125 * float(l.count);
+  texel = uvec4(0u);
+  if (l.count == 0) return;
+  LayerPoint p = layer_point(l, 0);
   Surface surface = surfaces[p.id - 1u];
-  bool lit = p.count > 0.0 && surface.color.w < 0.5;
   int middle = 0;
   float nearest = 1e30;
   for (int s = 0; s < SAMPLES; ++s) {
     float away = 0.0;  // from the others
-    for (int r = 0; r < SAMPLES; ++r) away += l.layer[r] == layer ? abs(l.samples[r].depth - l.samples[s].depth) : 0.0;
-    if (l.layer[s] != layer || away >= nearest) continue;
+    for (int r = 0; r < SAMPLES; ++r) away += l.layer[r] == 0 ? abs(l.samples[r].depth - l.samples[s].depth) : 0.0;
+    if (l.layer[s] != 0 || away >= nearest) continue;
     middle = s;
     nearest = away;
   }
@@ -265,7 +262,7 @@ void main() {
   finish |= packHalf2x16(vec2(0.0, sample_of.raised));
 #endif
   texel = uvec4(floatBitsToUint(sample_of.depth), packSnorm2x16(p.normals.xy), packSnorm2x16(sample_of.normals.zw),
-                lit ? finish : 0u);
+                surface.color.w < 0.5 ? finish : 0u);
 }
 )";
 
@@ -273,8 +270,30 @@ void main() {
 // ground, only what its fading edge lets through is seen, instead of the background there.
 const char* const layer_fragment = R"(
 layout(binding = 0) uniform sampler2DArray seen_of_pixel;  // parts seen of four lights, of the sky, and mirrored
+layout(binding = 15) uniform usampler2D surface_of_pixel;  // see surface_fragment
 uniform int layer;
 out vec4 color;
+
+// The pixel whose parts seen are those of this layer: for the first this one; the others are cut by edges, beyond which
+// they are a neighbour's first. x < 0: none is like it.
+ivec2 pixel_like(LayerPoint p) {
+  ivec2 here = ivec2(gl_FragCoord.xy);
+  if (layer == 0) return here;
+  ivec2 best = ivec2(-1);
+  float least = 1e30;
+  for (int k = 0; k < 9; ++k) {
+    ivec2 at = clamp(here + ivec2(k % 3 - 1, k / 3 - 1), ivec2(0), ivec2(viewport.xy) - 1);
+    uvec4 there = texelFetch(surface_of_pixel, at, 0);
+    if (there.w == 0u) continue;
+    vec2 turn = abs(unpackSnorm2x16(there.y) - p.normals.xy);
+    float unlike = abs(uintBitsToFloat(there.x) - p.depth) / pixel_footprint(p.depth) + 8.0 * (turn.x + turn.y);
+    if (unlike >= least) continue;
+    best = at;
+    least = unlike;
+  }
+  return best;
+}
+
 void main() {
   vec3 on_ground;
   float to_ground;
@@ -313,15 +332,19 @@ void main() {
 #ifdef COLORS
   if (tint.w > 0.0) surface.color.rgb = tint.rgb / tint.w;
 #endif
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  SkySeen sky;
-  sky.diffuse = texelFetch(seen_of_pixel, ivec3(pixel, 1), 0).rgb;
+  ivec2 pixel = pixel_like(mean);
+  vec4 lights_seen = vec4(1.0);
+  SkySeen sky = SkySeen(vec3(1.0), vec3(1.0));
+  if (pixel.x >= 0) {
+    lights_seen = texelFetch(seen_of_pixel, ivec3(pixel, 0), 0);
+    sky.diffuse = texelFetch(seen_of_pixel, ivec3(pixel, 1), 0).rgb;
 #ifdef SKY_MAP
-  sky.mirrored = texelFetch(seen_of_pixel, ivec3(pixel, 2), 0).rgb;
+    sky.mirrored = texelFetch(seen_of_pixel, ivec3(pixel, 2), 0).rgb;
 #else
-  sky.mirrored = sky.diffuse;
+    sky.mirrored = sky.diffuse;
 #endif
-  vec3 lit = shade(p, v, surface, texelFetch(seen_of_pixel, ivec3(pixel, 0), 0), sky, radiance_from_below(p.x));
+  }
+  vec3 lit = shade(p, v, surface, lights_seen, sky, radiance_from_below(p.x));
 #ifdef PEEL
   color = vec4(weight_before * lit, weight_before);
   if (weight_behind > 0.0)

@@ -21,7 +21,6 @@ extern const char* const emitter_vertex;
 extern const char* const seen_fragment;
 extern const char* const still_fragment;
 extern const char* const ground_light_fragment;
-extern const char* const count_fragment;
 extern const char* const surface_fragment;
 extern const char* const layer_fragment;
 extern const char* const ground_cover_fragment;
