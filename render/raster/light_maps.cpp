@@ -18,6 +18,7 @@ namespace {
 
 constexpr int sky_map_size = 256;
 constexpr int ground_map_size = 128;
+constexpr int bounce_map_size = ground_map_size / 2;
 constexpr float search_taps = 16.0F;  // of each of a quad's pixels
 constexpr int sky_table_size = 64;
 constexpr int coat_table_size = 32;
@@ -93,9 +94,9 @@ LightMaps::LightMaps(const RasterSettings& settings)
     : settings_(settings), ground_lit_texture_(GL_TEXTURE1, ground_map_size, ground_map_size) {
   allocate_table(sky_table_, sky_table_size, 1, sky_irradiance_table(sky_table_size));
   allocate_table(coat_table_, coat_table_size, coat_table_size, coat_albedo_table(coat_table_size));
-  const int levels = static_cast<int>(std::log2(ground_map_size)) + 1;
+  const int levels = static_cast<int>(std::log2(bounce_map_size)) + 1;
   glBindTexture(GL_TEXTURE_2D, ground_bounce_.id());
-  glTexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA16F, ground_map_size, ground_map_size);
+  glTexStorage2D(GL_TEXTURE_2D, levels, GL_RGBA16F, bounce_map_size, bounce_map_size);
   sampling(GL_TEXTURE_2D, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
   glBindFramebuffer(GL_FRAMEBUFFER, ground_target_.id());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, ground_bounce_.id(), 0);
@@ -215,16 +216,35 @@ void LightMaps::draw(std::span<const MeshBuffers> meshes, std::span<const std::v
   light_ground_map(block, depths_, ground_lit_);
   ground_lit_texture_.take(ground_lit_);
   ground_seen_ = raster::ground_seen(ground_lit_);
-  bind(ground_target_, ground_map_size, ground_map_size);
+  bind(ground_target_, bounce_map_size, bounce_map_size);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   glDisable(GL_BLEND);
   ground_program_->use();
   glBindVertexArray(no_attributes_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  fill_bounce_levels();
+}
+
+/// The means of each level's texels, on the CPU, where a level takes no pass of its own.
+void LightMaps::fill_bounce_levels() {
+  int size = bounce_map_size;
+  bounce_.resize(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
+  glReadPixels(0, 0, size, size, GL_RGBA, GL_FLOAT, bounce_.data());
   glActiveTexture(GL_TEXTURE4);
   glBindTexture(GL_TEXTURE_2D, ground_bounce_.id());
-  glGenerateMipmap(GL_TEXTURE_2D);
+  for (GLint level = 1; size > 1; ++level) {
+    const auto width = static_cast<std::size_t>(size);
+    size /= 2;
+    std::size_t to = 0;
+    for (std::size_t y = 0; y < width; y += 2) {
+      for (std::size_t x = 0; x < width; x += 2, ++to) {
+        const Vec4* from = bounce_.data() + y * width + x;
+        bounce_[to] = 0.25F * (from[0] + from[1] + from[width] + from[width + 1]);
+      }
+    }
+    glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, size, size, GL_RGBA, GL_FLOAT, bounce_.data());
+  }
 }
 
 void LightMaps::bind_textures() const {

@@ -46,6 +46,7 @@ public:
 
 private:
   void set_sky_map(const RenderScene&, FrameBlock&);
+  void fill_bounce_levels();
 
   RasterSettings settings_;
   std::optional<Program> ground_program_;  // for features_
@@ -64,6 +65,7 @@ private:
   DepthMaps depths_;
   LitPixels ground_lit_;
   GroundSeen ground_seen_;
+  std::vector<Vec4> bounce_;
   bool has_meshes_ = false;
   bool ground_ = false;
 };

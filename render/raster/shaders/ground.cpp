@@ -121,22 +121,27 @@ void main() {
 }
 )";
 
-// On the square of ground under the meshes: the radiance sent up.
+// On the square of ground under the meshes: the radiance sent up, of squares of two by two of the map's texels, for
+// from above it is seen blurred.
 const char* const ground_map_fragment = R"(
 layout(binding = 1) uniform sampler2DArray seen_of_texel;  // of lights and sky
 layout(location = 0) out vec4 bounce;
+vec4 seen_here(int layer) {
+  ivec3 at = ivec3(2 * ivec2(gl_FragCoord.xy), layer);
+  return 0.25 * (texelFetch(seen_of_texel, at, 0) + texelFetch(seen_of_texel, at + ivec3(1, 0, 0), 0) +
+                 texelFetch(seen_of_texel, at + ivec3(0, 1, 0), 0) + texelFetch(seen_of_texel, at + ivec3(1, 1, 0), 0));
+}
 void main() {
-  vec2 at = gl_FragCoord.xy / counts.w;
+  vec2 at = 2.0 * gl_FragCoord.xy / counts.w;
   vec3 x = vec3((at.x - ground_map.z) / ground_map.x, ground.x, (at.y - ground_map.w) / ground_map.x);
   vec3 n = vec3(0.0, 1.0, 0.0);
-  vec4 lights_seen = texelFetch(seen_of_texel, ivec3(gl_FragCoord.xy, 0), 0);
-  vec3 seen = texelFetch(seen_of_texel, ivec3(gl_FragCoord.xy, 1), 0).rgb;
-  vec3 light = seen * open_sky(n);
+  vec4 lights_seen = seen_here(0);
+  vec3 light = seen_here(1).rgb * open_sky(n);
   for (int i = 0; i < int(counts.x); ++i) {
     vec3 direction;
     light += lights[i].radiance.rgb * rectangle_irradiance(lights[i], x, n, direction) * lights_seen[i];
   }
-  bounce = vec4(ground_color_at(x, mat2(ground_map.y / sqrt(12.0))) / PI * light, 1.0);  // a metal's too, spread
+  bounce = vec4(ground_color_at(x, mat2(2.0 * ground_map.y / sqrt(12.0))) / PI * light, 1.0);  // a metal's too, spread
 }
 )";
 

@@ -278,11 +278,12 @@ out vec4 color;
 // they are a neighbour's first. x < 0: none is like it.
 ivec2 pixel_like(LayerPoint p) {
   ivec2 here = ivec2(gl_FragCoord.xy);
-  if (layer == 0) return here;
   ivec2 best = ivec2(-1);
   float least = 1e30;
-  for (int k = 0; k < 9; ++k) {
-    ivec2 at = clamp(here + ivec2(k % 3 - 1, k / 3 - 1), ivec2(0), ivec2(viewport.xy) - 1);
+  int count = layer == 0 ? 1 : 9;
+  for (int k = 0; k < count; ++k) {
+    int place = (k + 4) % 9;  // from the middle on
+    ivec2 at = clamp(here + ivec2(place % 3 - 1, place / 3 - 1), ivec2(0), ivec2(viewport.xy) - 1);
     uvec4 there = texelFetch(surface_of_pixel, at, 0);
     if (there.w == 0u) continue;
     vec2 turn = abs(unpackSnorm2x16(there.y) - p.normals.xy);

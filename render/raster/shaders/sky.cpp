@@ -87,7 +87,7 @@ vec4 radiance_from_below(vec3 x) {
 #else
   if (ground.w < 0.5 || height < 0.0) return vec4(horizon.rgb, 1.0);
 #endif
-  float level = log2(max(1.5 * height / ground_map.y, 1.0));
+  float level = log2(max(0.75 * height / ground_map.y, 1.0));
   vec3 bounce = textureLod(ground_bounce, ground_map_at(x), level).rgb;
   float reach = 0.5 * (ground.y + ground.z);
   float part = reach * reach / (reach * reach + height * height);
