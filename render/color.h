@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "render/image.h"
+#include "render/tone_rows.h"
 #include "render/types.h"
 
 namespace lagomorph::render {
@@ -22,7 +22,6 @@ struct Picture {
 float srgb_from_linear(float linear);
 float linear_from_srgb(float srgb);
 
-std::vector<std::string> tone_curve_names();
 /// "color" of the image, times 2^exposure, through the named tone curve and sRGB, rounded to 8 bits. NaN
 /// becomes black. Where it is `transparent` the colour is times the channel "alpha", which the picture gets,
 /// rounded to 8 bits, while its own colour is not times it. `dither`: colours are

@@ -49,6 +49,8 @@ public:
     });
   }
 
+  /// Whether pixel (x, y), see find(), and what is around it see all of everything.
+  bool is_open(int x, int y) const { return kinds_[index(x / step_, y / step_)] == Kind::open; }
   /// What pixel (x, y) from that of cell (0, 0) sees; returns false where its cells do not say it: they see
   /// too different parts, or other surfaces. `depth` and `normal` are the pixel's own, `reach` the difference
   /// in depth within which the surface goes on [m].

@@ -259,7 +259,7 @@ void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<cons
     };
     const auto shared = [&](int x, int y, const CoarseParts<most_lights>& cells, int at_x, int at_y,
                             std::array<float, most_lights>& seen) {
-      if (!tiles.touch(x, band.y + y, 1, 1)) return Found::nothing_there;
+      if (cells.is_open(at_x, at_y) || !tiles.touch(x, band.y + y, 1, 1)) return Found::nothing_there;
       return cells.find(at_x, at_y, 0.0F, Vec3::UnitY(), 1.0F, seen) ? Found::yes : Found::no;
     };
     light_part<most_lights>({frame, maps, Sky::left_out, lit}, band, ground_step, receivers, shared);
