@@ -271,6 +271,31 @@ TEST(RasterShadow, TheSkyIsDimmedUnderABody) {
   }
 }
 
+/// Near where a body touches the ground, where hardly anything of the sky is seen.
+TEST(RasterShadow, TheSkyIsHiddenAtAContact) {
+  RenderScene scene = empty_scene();
+  scene.ground.enabled = true;
+  scene.ground.radius = 40.0F;
+  scene.ground.fade_start = 30.0F;
+  scene.sky.strength = 1.0F;
+  scene.meshes = {sphere(Vec3(0.0F, 0.5F, 0.0F), 0.5F, 48)};
+  scene.meshes[0].material = scene.ground.material = matte(0.02F);
+  CameraSettings camera;
+  camera.position = Vec3(0.0F, 0.3F, 3.0F);
+  camera.look_at = Vec3(0.0F, 0.05F, 0.0F);
+  camera.fov = 20.0F;
+  const Image image = draw(scene, camera, small_settings(320, 200));
+  const Camera view(camera, 320, 200);
+  CameraSettings aside = camera;
+  aside.position.x() = aside.look_at.x() = 8.0F;
+  const float open = color_of(draw(scene, aside, small_settings(320, 200)), Camera(aside, 320, 200),
+                              Vec3(8.0F, 0.0F, 0.3F))[0];
+  for (const float d : {0.15F, 0.2F, 0.3F, 0.4F}) {  // as above
+    const float taken = 0.25F / (0.25F + d * d) * 0.5F / std::sqrt(0.25F + d * d);
+    EXPECT_NEAR(color_of(image, view, Vec3(0.0F, 0.0F, d))[0] / open, 1.0F - taken, 0.05F) << d;
+  }
+}
+
 /// Of a bar over the ground: no pattern of the points along which it is looked for.
 TEST(RasterShadow, TheSkysIsSmoothOnTheGround) {
   RenderScene scene = empty_scene();
