@@ -198,16 +198,18 @@ SeenCaster seen_from_light(const Caster& mesh, const Mat4& clip_from_world, int 
 }  // namespace
 
 void draw_sky_depths(const FrameBlock& frame, std::span<const Caster> meshes, int size,
-                     std::vector<DepthMap>& maps) {
+                     std::vector<DepthMap>& maps, bool from_below) {
   maps.resize(frame.sky.size());
   tbb::parallel_for(std::size_t{0}, maps.size(), [&](std::size_t i) {
     const SkyDirectionBlock& sky = frame.sky[i];
     DepthMap& map = maps[i];
     map.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), no_depth);
     const float half = 0.5F * static_cast<float>(size);
-    const Vec3 x_axis = half * frame.sky_map[3] * sky.right.head<3>();
+    const float towards = from_below ? -1.0F : 1.0F;
+    const Vec3 x_axis = towards * half * frame.sky_map[3] * sky.right.head<3>();
     const Vec3 y_axis = half * frame.sky_map[3] * sky.up.head<3>();
-    const Vec3 z_axis = -0.5F * static_cast<float>(no_depth) * frame.sky_map[3] * sky.direction.head<3>();
+    const Vec3 z_axis =
+        -0.5F * towards * static_cast<float>(no_depth) * frame.sky_map[3] * sky.direction.head<3>();
     const Vec3 middle = frame.sky_map.head<3>();
     std::vector<MapPoint> points;
     for (const Caster& mesh : meshes) {

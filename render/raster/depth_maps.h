@@ -19,8 +19,9 @@ struct DepthMaps {
   int light_size = 0;            // [texels]
   std::vector<DepthMap> lights;  // one a light
   int sky_size = 0;
-  std::vector<DepthMap> sky;  // one a direction; none: there are no meshes
-  bool see_through = false;   // some meshes are drawn as dots, see Caster
+  std::vector<DepthMap> sky;             // one a direction; none: there are no meshes
+  std::vector<DepthMap> sky_from_below;  // likewise, for the ground
+  bool see_through = false;              // some meshes are drawn as dots, see Caster
   bool sky_is_map = false;
 };
 

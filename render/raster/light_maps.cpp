@@ -210,8 +210,12 @@ void LightMaps::draw(std::span<const MeshBuffers> meshes, std::span<const std::v
         {positions[k], mesh.triangles(), mesh.closed(), mesh.material().opacity, mesh.body_id()});
   }
   draw_light_depths(light_views_, casters, settings_.shadow_map, depths_.lights);
-  depths_.sky.clear();
-  if (has_meshes_) draw_sky_depths(block, casters, sky_map_size, depths_.sky);
+  if (!has_meshes_) {
+    depths_.sky.clear();
+  } else {
+    draw_sky_depths(block, casters, sky_map_size, depths_.sky);
+    if (ground_) draw_sky_depths(block, casters, sky_map_size, depths_.sky_from_below, true);
+  }
   if (!ground_) return;
   light_ground_map(block, depths_, ground_lit_);
   ground_lit_texture_.take(ground_lit_);

@@ -57,17 +57,22 @@ struct alignas(64) LightTaps {
   float scale_x, scale_y, offset_x, offset_y;    // tangents to texels
   float tangent_x, tangent_y, first_x, first_y;  // and back
   float reciprocal_scale, reciprocal_offset;     // depths to 1 / distance
+  float closest;                                 // 1 / distance that a texel is as wide for as the light
   float half_x, half_y;                          // of the light [m]
   float least_x, least_y;                        // of any reach, as tangents
-  Lanes tangent_at_x, tangent_at_y, reciprocal,
-      plane;  // `plane`: distance of the plane that blockers are above
+  Lanes tangent_at_x, tangent_at_y, reciprocal;
+  Lanes plane;  // distance of the plane that blockers are above
   Lanes3 normal;
+  Lanes height, height_x, height_y;  // of the light's points (x, y) of [-1, 1]^2 above that plane [m]
+  Lanes rise;                        // of a blocker at `closest`, from its height to how much it hides
 };
 
-/// Over the lattice, of points within `reach` of each receiver: the sum of 1 / distance over what blocks the
-/// light, and how much does; nothing where it is not wanted. What is seen at a tap counts only where the
-/// receiver sees it before the light, or not further beside it than `slack` times the light's size.
-template <bool see_through>
+/// Over the lattice, of points within `reach` of each receiver: how much blocks the light, and of a search
+/// the sum of 1 / distance over that, else how much could; nothing where it is not wanted. What is seen at a
+/// tap counts only where the receiver sees it before the light, or not further beside it than `slack` times
+/// the light's size. A search counts what is nearer to the receiver more, which hides more of the light; else
+/// a point of the light counts by its height above the surface, as its light does.
+template <bool see_through, bool search>
 LAGOMORPH_INLINE void add_taps(const LightTaps& t, const Lattice& points, int taps, const Lanes& reach_x,
                                const Lanes& reach_y, float slack, const std::array<int, lanes>& wanted,
                                Lanes& sum, Lanes& count) {
@@ -112,11 +117,22 @@ LAGOMORPH_INLINE void add_taps(const LightTaps& t, const Lattice& points, int ta
         const float nearer = reciprocal - t.reciprocal[l];
         const bool before = both(std::abs(p.x[l]) * reach_x[l] < slack * t.half_x * nearer + t.least_x,
                                  std::abs(p.y[l]) * reach_y[l] < slack * t.half_y * nearer + t.least_y);
-        const bool blocks = both(
-            both(depth[base + l] != no_depth, both(before, nearer > 0.0F)),
-            t.normal.x[l] * centre_x + t.normal.y[l] * centre_y + t.normal.z[l] > t.plane[l] * reciprocal);
-        s[l] += blocks ? part * reciprocal : 0.0F;
-        c[l] += blocks ? part : 0.0F;
+        const float above =
+            t.normal.x[l] * centre_x + t.normal.y[l] * centre_y + t.normal.z[l] - t.plane[l] * reciprocal;
+        const bool blocks =
+            both(both(depth[base + l] != no_depth, both(before, nearer > 0.0F)), above > 0.0F);
+        float weight, rise;
+        if constexpr (search) {
+          weight = t.closest / (std::max(nearer, 0.0F) + t.closest);
+          rise = t.rise[l] * weight;
+        } else {
+          weight = std::max(t.height[l] + p.x[l] * t.height_x[l] + p.y[l] * t.height_y[l], 0.0F);
+          rise = t.rise[l];
+          s[l] += part * weight;
+        }
+        const float blocked = blocks ? part * weight * std::min(above * rise, 1.0F) : 0.0F;
+        if constexpr (search) s[l] += blocked * reciprocal;
+        c[l] += blocked;
       }
     }
   }
@@ -132,13 +148,15 @@ struct Slack {
 };
 // Bodies go on below what the light sees of them, which reaches into the light from further beside it. With
 // more, a hollow's own sides, low above the receiver, would count as well; the ground has none.
-constexpr Slack slack_of_bodies = {3.0F, 2.0F}, slack_of_ground = {1e9F, 1e9F};
+constexpr Slack slack_of_bodies = {3.0F, 1.5F}, slack_of_ground = {1e9F, 1e9F};
 LAGOMORPH_INLINE const Slack& slack_of(const Receivers& at) {
   return at.is_ground ? slack_of_ground : slack_of_bodies;
 }
 
-/// Cosine of the light's direction to a triangle from which on the triangle's plane counts alone.
-constexpr float most_turned = 0.2F;
+/// What is lower above the receiver's horizon than this part of the light's highest point hides less, down to
+/// nothing: light from there is hardly any, and in a hollow, where the triangles around lie that low, which
+/// of them are above the horizon would show.
+constexpr float low_part = 0.15F;
 
 /// The rectangle that blockers are looked for in, and where there may be any.
 struct alignas(64) Search {
@@ -167,35 +185,32 @@ LAGOMORPH_INLINE void look_from_light(const FrameBlock& frame, const DepthMaps& 
   const float half_x = light.right[3], half_y = light.up[3];
   t.half_x = half_x, t.half_y = half_y;
   t.least_x = least_reach<see_through> * t.tangent_x, t.least_y = least_reach<see_through> * t.tangent_y;
+  t.closest = std::max(t.least_x / half_x, t.least_y / half_y);
   for (Index l = 0; l < all; ++l) {
     const float px = at.point.x[l] - light.position[0];
     const float py = at.point.y[l] - light.position[1];
     const float pz = at.point.z[l] - light.position[2];
-    // The triangle's plane; but from a triangle that is turned away from the light while the surface that it
-    // stands for is not, what blocks the light is below that, and the plane is the surface's own.
-    const float sx = at.normal.x[l], sy = at.normal.y[l], sz = at.normal.z[l];
-    const float fx = at.flat_normal.x[l], fy = at.flat_normal.y[l], fz = at.flat_normal.z[l];
-    const float facing = -(fx * px + fy * py + fz * pz) / std::sqrt(px * px + py * py + pz * pz + 1e-12F);
-    const float flat = std::min(std::max(facing * (1.0F / most_turned), 0.0F), 1.0F);
-    const float mx = sx + flat * (fx - sx), my = sy + flat * (fy - sy), mz = sz + flat * (fz - sz);
-    const float length = 1.0F / std::sqrt(mx * mx + my * my + mz * mz + 1e-12F);
-    const float nx = mx * length, ny = my * length, nz = mz * length;
+    const float nx = at.normal.x[l], ny = at.normal.y[l], nz = at.normal.z[l];
     const float qx = px * light.right[0] + py * light.right[1] + pz * light.right[2];
     const float qy = px * light.up[0] + py * light.up[1] + pz * light.up[2];
     const float qz = px * light.normal[0] + py * light.normal[1] + pz * light.normal[2];
-    t.normal.x[l] = nx * light.right[0] + ny * light.right[1] + nz * light.right[2];
-    t.normal.y[l] = nx * light.up[0] + ny * light.up[1] + nz * light.up[2];
+    const float across = nx * light.right[0] + ny * light.right[1] + nz * light.right[2];
+    const float along = nx * light.up[0] + ny * light.up[1] + nz * light.up[2];
+    t.normal.x[l] = across;
+    t.normal.y[l] = along;
     t.normal.z[l] = nx * light.normal[0] + ny * light.normal[1] + nz * light.normal[2];
     t.reciprocal[l] = 1.0F / std::max(qz, 1e-6F);
     t.tangent_at_x[l] = qx * t.reciprocal[l];
     t.tangent_at_y[l] = qy * t.reciprocal[l];
     t.plane[l] = t.normal.x[l] * qx + t.normal.y[l] * qy + t.normal.z[l] * qz + light.depth[3] +
-                 at.footprint[l] + (1.0F - flat) * at.raised[l];
+                 at.footprint[l] + at.raised[l];
+    t.height[l] = -(nx * px + ny * py + nz * pz);
+    t.height_x[l] = across * half_x;
+    t.height_y[l] = along * half_y;
     // A surface that the whole rectangle is behind gets none of its light.
-    const float above = std::abs(sx * light.right[0] + sy * light.right[1] + sz * light.right[2]) * half_x +
-                        std::abs(sx * light.up[0] + sy * light.up[1] + sz * light.up[2]) * half_y -
-                        (sx * px + sy * py + sz * pz);
-    search.lit[l] = static_cast<int>(at.there[l] != 0) & static_cast<int>(above > 0.0F);
+    const float highest = t.height[l] + std::abs(t.height_x[l]) + std::abs(t.height_y[l]);
+    search.lit[l] = static_cast<int>(at.there[l] != 0) & static_cast<int>(highest > 0.0F);
+    t.rise[l] = 1.0F / (low_part * t.closest * std::max(highest, 1e-6F));
     search.distance[l] = std::max(qz, 0.0F);
     const float farther = std::max(light.depth[2] - t.reciprocal[l], 0.0F);
     search.reach_x[l] = half_x * farther + t.least_x;
@@ -223,8 +238,8 @@ LAGOMORPH_INLINE void blockers_of(const FrameBlock& frame, const DepthMaps& maps
   found.taps.fill(0.0F);
   if (!any(wanted)) return;
   const int taps = static_cast<int>(frame.shadow_taps[0]);
-  add_taps<see_through>(search.taps, lattice(taps), taps, search.reach_x, search.reach_y, slack_of(at).search,
-                        wanted, found.nearness, found.taps);
+  add_taps<see_through, true>(search.taps, lattice(taps), taps, search.reach_x, search.reach_y,
+                              slack_of(at).search, wanted, found.nearness, found.taps);
 }
 
 template <bool see_through>
@@ -239,17 +254,18 @@ LAGOMORPH_INLINE void shadow_of(const FrameBlock& frame, const DepthMaps& maps, 
   look_from_light<see_through>(frame, maps, number, at, search);
   const LightTaps& t = search.taps;
   const int taps = static_cast<int>(frame.shadow_taps[1]);
-  alignas(64) Lanes spread_x, spread_y, sum, blocked;
+  alignas(64) Lanes spread_x, spread_y, total, blocked;
   for (Index l = 0; l < all; ++l) {
-    const float nearer = found.nearness[l] / std::max(found.taps[l], 1.0F / 1024.0F) - t.reciprocal[l];
+    const float nearer = found.nearness[l] / std::max(found.taps[l], 1e-12F) - t.reciprocal[l];
+    search.taps.rise[l] *= t.closest / std::max(nearer, 1e-3F * t.closest);
     spread_x[l] = std::max(t.half_x * nearer, t.least_x);
     spread_y[l] = std::max(t.half_y * nearer, t.least_y);
     const float pixels = std::min(spread_x[l], spread_y[l]) * search.distance[l] / at.footprint[l];
     shadow.share[l] = std::min(std::max(0.5F * pixels - 0.5F, 0.0F), 1.0F);
   }
-  add_taps<see_through>(t, lattice(taps), taps, spread_x, spread_y, slack_of(at).filter, wanted, sum,
-                        blocked);
-  for (Index l = 0; l < all; ++l) shadow.blocked[l] = blocked[l] / static_cast<float>(taps);
+  add_taps<see_through, false>(t, lattice(taps), taps, spread_x, spread_y, slack_of(at).filter, wanted, total,
+                               blocked);
+  for (Index l = 0; l < all; ++l) shadow.blocked[l] = blocked[l] / std::max(total[l], 1e-12F);
 }
 
 }  // namespace

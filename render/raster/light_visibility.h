@@ -4,12 +4,14 @@
 #include "render/raster/frame_block.h"
 #include "render/raster/pixel_block.h"
 
-/// Part of the light's rectangle that each point sees on its triangle's plane: percentage-closer soft shadows
-/// [Fernando 2005] with the light's own rectangle for a filter. Seen from the light's centre, a point at
-/// tangents t and distance z, and the rectangle's point s: what lies between them at distance b appears at t
+/// Part of the light's rectangle that each point sees, by how much of its light falls there:
+/// percentage-closer soft shadows [Fernando 2005] with the light's own rectangle for a filter. Seen from the
+/// light's centre, a point at tangents t and distance z, and the rectangle's point s: what lies between them
+/// at distance b appears at t
 /// + s (1/b - 1/z). So reciprocal distances, which the depth map holds up to a scale, are averaged. A texel
-/// blocks if the surface that it saw is nearer than the receiver and above the receiver's plane: no surface
-/// can shadow itself by the map's resolution, and nothing needs to be pushed away from the light.
+/// blocks if the surface that it saw is nearer than the receiver and above the receiver's smooth surface: no
+/// surface can shadow itself by the map's resolution, nothing needs to be pushed away from the light, and no
+/// triangles show.
 ///
 /// The four pixels of a quad look at different points; what they find is to be shared by neighbours between
 /// the two steps and after them (soft_shadow()).
@@ -17,8 +19,8 @@ namespace lagomorph::render::raster {
 
 /// What is before the light, over the taps of the search.
 struct alignas(64) Blockers {
-  Lanes nearness;  // sum of 1 / distance from the light over the taps that are blocked [1/m]
-  Lanes taps;      // how many are
+  Lanes nearness;  // weighted sum of 1 / distance from the light over the taps that are blocked [1/m]
+  Lanes taps;      // sum of their weights
   Lanes depth;     // the receiver's along the view axis [m]; of one that is not lit unlike any other
 };
 void find_blockers(const FrameBlock&, const DepthMaps&, int light, const Receivers&, Blockers&);

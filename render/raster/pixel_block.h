@@ -33,7 +33,6 @@ constexpr int row(int lane) { return (lane >> 1) & 1; }
 /// Points with their surfaces.
 struct alignas(64) Receivers {
   Lanes3 point;                  // [m]
-  Lanes3 flat_normal;            // of the triangle
   Lanes3 normal;                 // to shade with
   Lanes3 mirrored;               // the view's mirror image
   Lanes raised;                  // of the smooth surface above the triangle [m]

@@ -41,7 +41,7 @@ void clear(Receivers& r, int lane) {
   const auto l = static_cast<std::size_t>(lane);
   r.there[l] = 0;
   r.point.set(lane, Vec3::Zero());
-  for (Lanes3* n : {&r.flat_normal, &r.normal, &r.mirrored}) n->set(lane, Vec3::UnitY());
+  for (Lanes3* n : {&r.normal, &r.mirrored}) n->set(lane, Vec3::UnitY());
   r.raised[l] = 0.0F;
   r.roughness[l] = 1.0F;
   r.depth[l] = 1e9F;  // unlike any neighbour's
@@ -54,7 +54,7 @@ void put_ground(Receivers& r, int lane, const Vec3& point, float normal_y, float
   const auto l = static_cast<std::size_t>(lane);
   r.there[l] = 1;
   r.point.set(lane, point);
-  for (Lanes3* n : {&r.flat_normal, &r.normal, &r.mirrored}) n->set(lane, Vec3(0.0F, normal_y, 0.0F));
+  for (Lanes3* n : {&r.normal, &r.mirrored}) n->set(lane, Vec3(0.0F, normal_y, 0.0F));
   r.depth[l] = 0.0F;
   r.footprint[l] = footprint;
 }
@@ -136,13 +136,11 @@ bool surface_receivers(const FrameBlock& frame, bool with_mirrored, const Surfac
     const auto depth = std::bit_cast<float>(t.depth);
     r.there[l] = 1;
     r.point.set(lane, ray.origin + depth * ray.direction);
-    r.flat_normal.set(lane, direction_of(unpacked(t.flat_normal)));
     const Vec3 normal = normal_of(t);
     r.normal.set(lane, normal);
     if (with_mirrored) r.mirrored.set(lane, mirrored_view(-ray.direction.normalized(), normal));
-    r.roughness[l] = static_cast<float>((t.finish & 0xffffU) - 1U) / 65534.0F;
-    r.raised[l] =
-        static_cast<float>(Eigen::numext::bit_cast<Eigen::half>(static_cast<std::uint16_t>(t.finish >> 16U)));
+    r.roughness[l] = static_cast<float>(t.finish - 1U) / 65534.0F;
+    r.raised[l] = std::bit_cast<float>(t.raised);
     r.depth[l] = depth;
     r.footprint[l] = pixel_footprint(frame, depth);
   }

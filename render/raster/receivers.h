@@ -13,11 +13,10 @@ namespace lagomorph::render::raster {
 
 /// A pixel of what surface_fragment says.
 struct SurfaceTexel {
-  std::uint32_t depth;        // bits of a float, along the view axis [m]
-  std::uint32_t normal;       // two fractions in [-1, 1] of 16 bits, on the octahedron
-  std::uint32_t flat_normal;  // likewise
-  std::uint32_t finish;       // lower half: 1 + 65534 times the roughness; upper: half float, see
-                              // Receivers::raised [m]; 0: nothing, or nothing that is lit
+  std::uint32_t depth;   // bits of a float, along the view axis [m]
+  std::uint32_t normal;  // two fractions in [-1, 1] of 16 bits, on the octahedron
+  std::uint32_t raised;  // bits of a float, see Receivers [m]
+  std::uint32_t finish;  // 1 + 65534 times the roughness; 0: nothing, or nothing that is lit
 };
 
 /// Those of a rectangle of pixels, rows from below.

@@ -34,10 +34,12 @@ LAGOMORPH_INLINE void look_along(const FrameBlock& frame, Index i, const Receive
   }
 }
 
-/// What hides the sky through points of a direction's map, bilinear over four texels: how much, and that
-/// times how far above the receiver. The same test as for the lights.
-LAGOMORPH_INLINE void add_hidden(const DepthMap::value_type* map, int size, const Sightlines& from,
-                                 const Lanes& offset_x, const Lanes& offset_y, Lanes& hidden, Lanes& height) {
+/// What hides the sky through points of a direction's map, bilinear over four texels: how much, and with the
+/// map from below, times how far above the receiver it begins and ends. The same test as for the lights.
+template <bool with_height>
+LAGOMORPH_INLINE void add_hidden(const DepthMap::value_type* map, const DepthMap::value_type* from_below,
+                                 int size, const Sightlines& from, const Lanes& offset_x,
+                                 const Lanes& offset_y, Lanes& hidden, Lanes& lowest, Lanes& highest) {
   const auto texels = static_cast<float>(size);
   const float step = 2.0F / texels;
   constexpr float scale = 2.0F / no_depth;
@@ -64,6 +66,14 @@ LAGOMORPH_INLINE void add_hidden(const DepthMap::value_type* map, int size, cons
     at[3 * all + l] = y1 + x1;
   }
   look_up(map, at.data(), at.size(), depth.data());
+  alignas(64) BatchIndices below;
+  if constexpr (with_height) {
+    std::int32_t nearest = no_depth;
+    for (Index i = 0; i < depth.size(); ++i) nearest = std::min(nearest, depth[i]);
+    if (nearest == no_depth) return;
+    for (Index i = 0; i < at.size(); ++i) at[i] ^= last;  // mirrored in its row: the size is a power of two
+    look_up(from_below, at.data(), at.size(), below.data());
+  }
   for (int corner = 0; corner < batch; ++corner) {
     const bool right = (corner & 1) != 0, upper = (corner >> 1) != 0;
     const Index base = static_cast<Index>(corner) * all;
@@ -77,7 +87,11 @@ LAGOMORPH_INLINE void add_hidden(const DepthMap::value_type* map, int size, cons
       const float above = from.normal.x[l] * dx + from.normal.y[l] * dy + from.normal.z[l] * rise;
       const bool hides = both(rise > least, above > least);
       hidden[l] += hides ? weight : 0.0F;
-      height[l] += hides ? weight * rise : 0.0F;
+      if constexpr (with_height) {
+        const float low = scale * static_cast<float>(below[base + l]) - 1.0F - from.at.z[l];
+        lowest[l] += hides ? weight * std::max(std::min(low, rise), 0.0F) : 0.0F;
+        highest[l] += hides ? weight * rise : 0.0F;
+      }
     }
   }
 }
@@ -114,7 +128,7 @@ LAGOMORPH_RENDER_SIMD void sky_seen(const FrameBlock& frame, const DepthMaps& ma
   alignas(64) Lanes3 total, left, total_mirrored, left_mirrored;
   for (Lanes3* sum : {&total, &left, &total_mirrored, &left_mirrored}) fill(*sum, 1e-6F);
   alignas(64) constexpr Lanes nowhere{};
-  alignas(64) Lanes light, open, hidden, height;
+  alignas(64) Lanes light, open, hidden;
   Sightlines from;
   for (Index i = 0; i < maps.sky.size(); ++i) {
     look_along(frame, i, at, from);
@@ -122,8 +136,8 @@ LAGOMORPH_RENDER_SIMD void sky_seen(const FrameBlock& frame, const DepthMaps& ma
     for (Index l = 0; l < all; ++l) highest = std::max(highest, from.normal.z[l]);
     if (highest <= 0.0F) continue;  // its light falls on their backs
     hidden.fill(0.0F);
-    height.fill(0.0F);
-    add_hidden(maps.sky[i].data(), maps.sky_size, from, nowhere, nowhere, hidden, height);
+    add_hidden<false>(maps.sky[i].data(), nullptr, maps.sky_size, from, nowhere, nowhere, hidden, hidden,
+                      hidden);
     for (Index l = 0; l < all; ++l) {
       light[l] = std::max(from.normal.z[l], 0.0F);
       open[l] = light[l] * (1.0F - hidden[l]);
@@ -157,10 +171,11 @@ LAGOMORPH_RENDER_SIMD void sky_seen_softly(const FrameBlock& frame, const DepthM
   alignas(64) Lanes3 total, left;
   fill(total, 1e-6F);
   fill(left, 1e-6F);
-  alignas(64) Lanes light, open, hidden, height, offset_x, offset_y, reach;
+  alignas(64) Lanes light, open, hidden, offset_x, offset_y, reach;
   Sightlines from;
   for (Index i = 0; i < maps.sky.size(); ++i) {
     look_along(frame, i, at, from);
+    const DepthMap::value_type *map = maps.sky[i].data(), *from_below = maps.sky_from_below[i].data();
     const float spread = maps.sky_is_map ? frame.sky[i].direction[3] : usual_spread;
     alignas(64) std::array<float, 4> turn_x, turn_y;  // of each pixel of a quad
     for (int q = 0; q < 4; ++q) {
@@ -173,17 +188,19 @@ LAGOMORPH_RENDER_SIMD void sky_seen_softly(const FrameBlock& frame, const DepthM
       reach[l] = 0.5F * spread * std::max(1.0F - from.at.z[l], 0.0F);
       meets |= std::max(std::abs(from.at.x[l]), std::abs(from.at.y[l])) < 1.0F + reach[l];
     }
-    alignas(64) Lanes found{}, found_height{};
+    alignas(64) Lanes found{}, low{}, high{}, low_here{}, found_here{};
     if (meets) {
       offset_x.fill(0.0F);
       offset_y.fill(0.0F);
-      add_hidden(maps.sky[i].data(), maps.sky_size, from, offset_x, offset_y, found, found_height);
+      add_hidden<true>(map, from_below, maps.sky_size, from, offset_x, offset_y, found, low, high);
+      found_here = found;
+      low_here = low;
       for (Index l = 0; l < all; ++l) {
         offset_x[l] = reach[l] * turn_x[l % 4];
         offset_y[l] = reach[l] * turn_y[l % 4];
       }
       for (int k = 0; k < 4; ++k) {
-        add_hidden(maps.sky[i].data(), maps.sky_size, from, offset_x, offset_y, found, found_height);
+        add_hidden<true>(map, from_below, maps.sky_size, from, offset_x, offset_y, found, low, high);
         for (Index l = 0; l < all; ++l) {
           const float x = offset_x[l];
           offset_x[l] = -offset_y[l];
@@ -195,7 +212,13 @@ LAGOMORPH_RENDER_SIMD void sky_seen_softly(const FrameBlock& frame, const DepthM
     float most = 0.0F;
     for (Index l = 0; l < all; ++l) most = std::max(most, found[l]);
     if (most > 0.0F) {
-      for (Index l = 0; l < all; ++l) reach[l] = spread * found_height[l] / std::max(found[l], 1e-6F);
+      for (Index l = 0; l < all; ++l) {
+        // How far away what hides the sky is decides how blurred its shadow is: where a body's border is seen
+        // along the direction, that is in the middle between its two sides; under it its lower side, so that
+        // nothing shines in where it touches the ground.
+        const float middle = 0.5F * (low[l] + high[l]) / std::max(found[l], 1e-6F);
+        reach[l] = spread * (low_here[l] + (1.0F - found_here[l]) * middle);
+      }
       for (int k = 0; k < taps; ++k) {
         for (Index l = 0; l < all; ++l) {
           const float turns = 0.25F * static_cast<float>(l % 4);
@@ -204,7 +227,7 @@ LAGOMORPH_RENDER_SIMD void sky_seen_softly(const FrameBlock& frame, const DepthM
           offset_x[l] = r * turn_x[l % 4];
           offset_y[l] = r * turn_y[l % 4];
         }
-        add_hidden(maps.sky[i].data(), maps.sky_size, from, offset_x, offset_y, hidden, height);
+        add_hidden<false>(map, from_below, maps.sky_size, from, offset_x, offset_y, hidden, hidden, hidden);
         for (Index q = 0; q < 4; ++q) {
           const float x = turn_x[q];
           turn_x[q] = -0.7373688F * x - 0.6754902F * turn_y[q];

@@ -49,7 +49,6 @@ struct TakenRow {
   const std::uint16_t* planes;  // of the row's first pixel
   std::size_t plane;            // from one to the next
   int lights;
-  bool sky_is_map;
   const Parts* lit;                  // nullptr: all lights are seen
   std::array<const float*, 3> seen;  // of the sky
   float* color;
@@ -83,20 +82,11 @@ LAGOMORPH_RENDER_SIMD void take(const TakenRow& r, const Color& open_sky, const 
       const float turned = open * (1.0F - part) / (all + 1e-6F);
       return (open * part + up) / std::max(1.0F - turned * albedo, 0.05F);
     };
-    if (r.sky_is_map) {
-      const std::uint16_t* mesh = r.planes + (7 + 3 * static_cast<std::size_t>(r.lights) + c) * r.plane;
-      for (std::size_t x = 0; x < count; ++x) {
-        const float sent = from_half(diffuse[x]), part = seen[x];
-        const float light = ambient(part, sent, from_half(white[x]));
-        taken[x] =
-            sent * (all - light) + (1.0F - part) * (from_half(mirrored[x]) - light * from_half(mesh[x]));
-      }
-    } else {
-      for (std::size_t x = 0; x < count; ++x) {
-        const float sent = from_half(diffuse[x]), part = seen[x];
-        taken[x] =
-            sent * (all - ambient(part, sent, from_half(white[x]))) + (1.0F - part) * from_half(mirrored[x]);
-      }
+    const std::uint16_t* mesh = r.planes + (7 + 3 * static_cast<std::size_t>(r.lights) + c) * r.plane;
+    for (std::size_t x = 0; x < count; ++x) {
+      const float sent = from_half(diffuse[x]), part = seen[x];
+      const float light = ambient(part, sent, from_half(white[x]));
+      taken[x] = sent * (all - light) + (1.0F - part) * (from_half(mirrored[x]) - light * from_half(mesh[x]));
     }
     if (r.lit != nullptr) {
       for (std::size_t i = 0; i < static_cast<std::size_t>(r.lights); ++i) {
@@ -168,7 +158,6 @@ void take_run(const FrameBlock& frame, const StillParts& still, const GroundSeen
       row.planes = still.planes.data() + pixel;
       row.plane = still.pixels();
       row.lights = still.lights;
-      row.sky_is_map = still.sky_is_map;
       if (run.lights_hidden != 0) {
         row.lit = lit.lights.data() +
                   static_cast<std::size_t>(y - lit.at.y) * static_cast<std::size_t>(lit.at.width) +

@@ -15,11 +15,10 @@ namespace lagomorph::render::raster {
 struct StillParts {
   int width = 0, height = 0;
   int lights = 0;
-  bool sky_is_map = false;
   std::vector<float> picture;  // linear colour, interleaved
   /// Half floats, a plane each, in the order of still_fragment's outputs: red, green, blue of what the sky's
-  /// light becomes, the same of a white ground; three colours of the sky mirrored, of each light, and of a
-  /// map of the sky the mirrored mesh.
+  /// light becomes, the same of a white ground; three colours of the sky mirrored, of each light, and of
+  /// the mirrored mesh.
   std::vector<std::uint16_t> planes;
   Color open = Color::Zero(), from_below = Color::Zero();  // irradiance of the ground with nothing before it
 

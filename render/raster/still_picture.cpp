@@ -30,7 +30,6 @@ StillPicture::StillPicture(const LightFeatures& features, int lights)
              {still_definitions(features, lights).c_str(), shaders::frame, shaders::brdf, shaders::sky,
               shaders::shade, shaders::ground_point, shaders::ground_light_fragment}) {
   read_.lights = lights;
-  read_.sky_is_map = features.sky_map;
 }
 
 StillPicture::Sized::Sized(int w, int h, int count) : width(w), height(h) {

@@ -39,7 +39,7 @@ private:
     Framebuffer target;
   };
 
-  int parts() const { return 2 + lights_ + (features_.sky_map ? 1 : 0); }
+  int parts() const { return 3 + lights_; }
 
   LightFeatures features_;
   int lights_;

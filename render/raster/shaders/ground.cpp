@@ -50,9 +50,7 @@ layout(location = 2) out vec4 mirrored;  // of the sky
 #if LIGHTS > 0
 layout(location = 3) out vec4 lit[LIGHTS];
 #endif
-#ifdef SKY_MAP
 layout(location = 3 + LIGHTS) out vec4 mirrored_mesh;  // what the light on a mesh before the sky becomes
-#endif
 const float most = 65504.0;
 void main() {
   vec3 origin, direction;
@@ -60,9 +58,7 @@ void main() {
   picture = vec4(background_radiance(direction), 1.0);
   diffuse = vec4(0.0);
   mirrored = vec4(0.0);
-#ifdef SKY_MAP
   mirrored_mesh = vec4(0.0);
-#endif
 #if LIGHTS > 0
   for (int i = 0; i < LIGHTS; ++i) lit[i] = vec4(0.0);
 #endif
@@ -87,9 +83,7 @@ void main() {
   picture.rgb = (1.0 - part) * picture.rgb + sent;
   diffuse = min(part / PI * vec4(finish.out_of_base * finish.coat.diffuse + finish.multiple, finish.out_of_base), most);
   mirrored.rgb = min(part * finish.mirrors * sky.mirrored, most);
-#ifdef SKY_MAP
   mirrored_mesh.rgb = min(part * finish.mirrors * sky.mirrored_mesh, most);
-#endif
 }
 )";
 

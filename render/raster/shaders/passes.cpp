@@ -258,10 +258,11 @@ void main() {
   }
   Sample sample_of = l.samples[middle];
   uint finish = 1u + uint(65534.0 * clamp(surface.finish.x, 0.0, 1.0) + 0.5);
+  float raised = 0.0;
 #ifndef PEEL
-  finish |= packHalf2x16(vec2(0.0, sample_of.raised));
+  raised = sample_of.raised;
 #endif
-  texel = uvec4(floatBitsToUint(sample_of.depth), packSnorm2x16(p.normals.xy), packSnorm2x16(sample_of.normals.zw),
+  texel = uvec4(floatBitsToUint(sample_of.depth), packSnorm2x16(p.normals.xy), floatBitsToUint(raised),
                 surface.color.w < 0.5 ? finish : 0u);
 }
 )";

@@ -175,18 +175,17 @@ SkyLight sky_light(Finish f, vec3 n, vec3 v, vec4 below) {
   sky.open = open_sky(n);
   sky.from_below = light_from_below(n, below);
   float roughness = f.coat.roughness;
-#ifdef SKY_MAP
   vec3 r = mirrored_view(v, n);
+#ifdef SKY_MAP
   float level = float(textureQueryLevels(sky_lobes_above) - 1) * roughness;
   vec4 above = textureLod(sky_lobes_above, r, level);
   sky.mirrored = above.rgb;
   sky.mirrored_mesh = above.w * (f.coat.diffuse + f.coat.f0) / PI;
   sky.mirrored_below = mix(textureLod(sky_lobes_below, r, level).rgb, (1.0 - above.w) * below.rgb, below.w);
 #else
-  vec3 r = reflect(-v, n);
   float above = smoothstep(-roughness, roughness + 1e-3, r.y);
   sky.mirrored = mix(above * sky_radiance(r), open_sky(r) / PI, roughness);
-  sky.mirrored_mesh = vec3(0.0);
+  sky.mirrored_mesh = mix(above, 0.5 * (1.0 + r.y), roughness) * (f.coat.diffuse + f.coat.f0) / PI;
   sky.mirrored_below = mix(1.0 - above, 0.5 * (1.0 - r.y), roughness) * below.rgb;
 #endif
   return sky;

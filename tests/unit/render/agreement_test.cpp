@@ -328,6 +328,30 @@ TEST(BackEndsAgree, OnTheLightOfASkyMap) {
   EXPECT_LT(std::abs(mirror_bias), 0.005);
 }
 
+/// Seen from below: a metal that mirrors a body before the sky, not the dark.
+TEST(BackEndsAgree, OnABodyInAMetal) {
+  RenderScene scene;
+  scene.lights.clear();
+  scene.sky.strength = 1.0F;
+  scene.meshes = {make_sphere(4, 0.5F, Vec3(0, 1.2F, 0)), make_box(Vec3(-2, 1.75F, -2), Vec3(2, 1.85F, 2))};
+  for (Mesh& mesh : scene.meshes) mesh.material = {Color::Constant(0.9F), 0.2F, 1.0F, 1.5F};
+  CameraSettings camera;
+  camera.position = Vec3(0, 0.3F, 2.5F);
+  camera.look_at = Vec3(0, 1.2F, 0);
+  camera.fov = 20.0F;
+  const Image raster = draw("raster", scene, camera, {}, false),
+              path = draw("path", scene, camera, {}, false, 256, 4);
+  // The normal there halves the angle between the camera and what is straight up or so.
+  const Vec2 at =
+      Camera(camera, width, height).project(Vec3(0, 1.2F, 0) + 0.5F * Vec3(0, 0.3F, 0.95F).normalized());
+  const auto pixel = 3 * (static_cast<std::size_t>(at.y()) * width + static_cast<std::size_t>(at.x()));
+  const float seen = raster.find(color_channel)->values[pixel],
+              expected = path.find(color_channel)->values[pixel];
+  EXPECT_GT(expected, 0.1F);
+  EXPECT_GT(seen / expected, 0.75F);  // 0.43 where what hides the sky is black
+  EXPECT_LT(seen / expected, 1.25F);
+}
+
 TEST(BackEndsAgree, OnTheShadowOfASkyMapsBrightPatch) {
   RenderScene scene = sphere_under_sky(0.0F, 1.0F);
   scene.ground.enabled = true;

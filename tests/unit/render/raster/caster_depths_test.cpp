@@ -46,6 +46,33 @@ TEST(SkyDepths, OfABallAreItsHeightTowardsTheSky) {
   }
 }
 
+TEST(SkyDepths, FromBelowAreThoseOfTheOtherSideMirrored) {
+  const Vec3 center(0.3F, 1.0F, -0.2F);
+  const Mesh ball = sphere(center + Vec3(0.2F, 0.1F, 0.3F), 0.4F, 96);
+  const std::vector<Caster> casters = {{ball.positions, ball.triangles, true, 1.0F, 0}};
+  const FrameBlock frame = frame_around(center, 1.0F);
+  std::vector<DepthMap> maps;
+  draw_sky_depths(frame, casters, size, maps, true);
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const SkyDirectionBlock& sky = frame.sky[i];
+    const Vec3 off(0.2F, 0.1F, 0.3F);
+    const float right = off.dot(sky.right.head<3>()), up = off.dot(sky.up.head<3>()),
+                high = off.dot(sky.direction.head<3>());
+    for (int y = 0; y < size; ++y) {
+      for (int x = 0; x < size; ++x) {
+        const float across = std::hypot(middle_of(x) - right, middle_of(y) - up);
+        const std::uint16_t depth = maps[i][static_cast<std::size_t>(y * size + size - 1 - x)];
+        if (across > 0.401F) {
+          EXPECT_EQ(depth, no_depth);
+        } else if (across < 0.38F) {
+          const float height = 2.0F * static_cast<float>(depth) / no_depth - 1.0F;
+          EXPECT_NEAR(height, high - std::sqrt(0.16F - across * across), 3e-3F);
+        }
+      }
+    }
+  }
+}
+
 TEST(SkyDepths, AnOpenSheetIsSeenFromBothSides) {
   // Facing down: from above only its back is seen.
   const Mesh sheet = rectangle(Vec3::Zero(), 0.4F * Vec3::UnitX(), 0.4F * Vec3::UnitZ());

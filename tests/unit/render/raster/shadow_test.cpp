@@ -161,6 +161,74 @@ TEST(RasterShadow, FallsOnTrianglesThatAreTurnedAway) {
   EXPECT_GT(brightest(), 0.1F);
 }
 
+/// A bowl of n x n squares, 1 m wide and 12 cm deep, whose sides are seen.
+Mesh bowl(int n) {
+  Mesh mesh;
+  mesh.name = "bowl";
+  mesh.material = matte(0.5F);
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) {
+      const float x = static_cast<float>(i) / static_cast<float>(n) - 0.5F;
+      const float z = static_cast<float>(j) / static_cast<float>(n) - 0.5F;
+      mesh.positions.emplace_back(x, 0.24F * (x * x + z * z), z);
+    }
+  }
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const auto at = [&](int di, int dj) { return static_cast<std::uint32_t>((j + dj) * (n + 1) + i + di); };
+      mesh.triangles.push_back({at(0, 0), at(0, 1), at(1, 0)});
+      mesh.triangles.push_back({at(1, 0), at(0, 1), at(1, 1)});
+    }
+  }
+  return mesh;
+}
+
+/// Under a light of size that grazes it, a hollow of large triangles looks as one of small ones does.
+TEST(RasterShadow, AHollowShowsNoTriangles) {
+  RenderScene scene = square_over_ground(1.5F);
+  scene.ground.enabled = false;
+  scene.lights[0].position = Vec3(-3.0F, 0.6F, 0.3F);
+  CameraSettings camera;
+  camera.position = Vec3(0.3F, 2.6F, 1.8F);
+  camera.look_at = Vec3::Zero();
+  camera.fov = 17.0F;
+  const auto drawn = [&](int squares) {
+    scene.meshes = {bowl(squares)};
+    return draw(scene, camera, small_settings(240, 160));
+  };
+  const Image coarse = drawn(12), fine = drawn(96);
+  double apart = 0.0, light = 0.0;
+  for (int y = 30; y < 130; ++y) {
+    for (int x = 60; x < 180; ++x) {
+      // The steps from pixel to pixel, for the triangles' edges are to be seen in them.
+      apart += static_cast<double>(std::abs(color_at(coarse, x + 2, y)[0] - color_at(coarse, x, y)[0] -
+                                            color_at(fine, x + 2, y)[0] + color_at(fine, x, y)[0]));
+      light += static_cast<double>(color_at(fine, x, y)[0]);
+    }
+  }
+  EXPECT_LT(apart / light, 0.003);  // 0.017 by the triangles' planes
+}
+
+/// A light whose lower half is under a surface's horizon: what hides the upper half hides all that it gets.
+TEST(RasterShadow, CountsOnlyWhatIsAboveTheHorizonOfALight) {
+  RenderScene scene = square_over_ground(2.0F);
+  scene.ground.enabled = false;
+  scene.lights[0].position = Vec3(-3.0F, 0.0F, 0.0F);
+  scene.lights[0].look_at = Vec3::Zero();
+  scene.meshes = {rectangle(Vec3::Zero(), Vec3::UnitZ(), Vec3::UnitX())};
+  CameraSettings camera;
+  camera.position = Vec3(1.0F, 2.0F, 3.0F);
+  camera.look_at = Vec3::Zero();
+  camera.fov = 40.0F;
+  const Camera view(camera, 160, 120);
+  const Vec3 point(0.3F, 0.0F, 0.0F);
+  const float open = color_of(draw(scene, camera, small_settings(160, 120)), view, point)[0];
+  scene.meshes.push_back(box(Vec3(-0.7F, 0.001F, -2.0F), Vec3(-0.6F, 1.0F, 2.0F)));
+  const float hidden = color_of(draw(scene, camera, small_settings(160, 120)), view, point)[0];
+  EXPECT_GT(open, 0.01F);
+  EXPECT_LT(hidden / open, 0.06F);  // 0.56 where what is below the horizon counts
+}
+
 /// The pixels of a quad share what they find, and yet have each their own place in the penumbra.
 TEST(RasterShadow, APenumbraHasNoStepsOfTwoPixels) {
   const RenderScene scene = square_over_ground(1.2F);
@@ -200,6 +268,31 @@ TEST(RasterShadow, TheSkyIsDimmedUnderABody) {
   for (const float d : {0.55F, 0.8F, 1.2F}) {
     const float taken = 0.25F / (0.25F + d * d) * 0.5F / std::sqrt(0.25F + d * d);
     EXPECT_NEAR(color_of(image, view, Vec3(d, 0.0F, 0.0F))[0] / open, 1.0F - taken, 0.08F) << d;
+  }
+}
+
+/// Near where a body touches the ground, where hardly anything of the sky is seen.
+TEST(RasterShadow, TheSkyIsHiddenAtAContact) {
+  RenderScene scene = empty_scene();
+  scene.ground.enabled = true;
+  scene.ground.radius = 40.0F;
+  scene.ground.fade_start = 30.0F;
+  scene.sky.strength = 1.0F;
+  scene.meshes = {sphere(Vec3(0.0F, 0.5F, 0.0F), 0.5F, 48)};
+  scene.meshes[0].material = scene.ground.material = matte(0.02F);
+  CameraSettings camera;
+  camera.position = Vec3(0.0F, 0.3F, 3.0F);
+  camera.look_at = Vec3(0.0F, 0.05F, 0.0F);
+  camera.fov = 20.0F;
+  const Image image = draw(scene, camera, small_settings(320, 200));
+  const Camera view(camera, 320, 200);
+  CameraSettings aside = camera;
+  aside.position.x() = aside.look_at.x() = 8.0F;
+  const float open = color_of(draw(scene, aside, small_settings(320, 200)), Camera(aside, 320, 200),
+                              Vec3(8.0F, 0.0F, 0.3F))[0];
+  for (const float d : {0.15F, 0.2F, 0.3F, 0.4F}) {  // as above
+    const float taken = 0.25F / (0.25F + d * d) * 0.5F / std::sqrt(0.25F + d * d);
+    EXPECT_NEAR(color_of(image, view, Vec3(0.0F, 0.0F, d))[0] / open, 1.0F - taken, 0.05F) << d;
   }
 }
 
