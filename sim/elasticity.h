@@ -90,17 +90,14 @@ public:
     }
   }
 
-  void add_states(const VecX& q, ElementStates& states) const override {
+  void add_states(const VecX& q, PointStates& states) const override {
     for_each_element([&](std::size_t j) {
       const Edges x = edges(j, q);
-      const auto tet = static_cast<std::size_t>(tets_[j]);
-      double whole = 0.0;
-      for (const double volume : elements_[j].volumes) whole += volume;
+      const std::size_t first = states.first[static_cast<std::size_t>(tets_[j])];
       for (std::size_t p = 0; p < P; ++p) {
         const Mat3 F = x * elements_[j].D[p];
-        const double part = elements_[j].volumes[p] / whole;
-        states.P[tet] += part * materials_[j].dpsi_dF(F);
-        states.psi[tet] += part * materials_[j].psi(F);
+        states.P[first + p] += materials_[j].dpsi_dF(F);
+        states.psi[first + p] += materials_[j].psi(F);
       }
     });
   }

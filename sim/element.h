@@ -103,6 +103,19 @@ struct Tet10 {
     return lambda;
   }
 
+  /// At barycentric coordinates λ, the weights of the points' values in the linear function through them:
+  /// (λ_p - b)/(a - b), a of a point's own corner and b of the others.
+  static Eigen::Vector4d weights_of_points(const Eigen::Vector4d& lambda) {
+    const double root = std::sqrt(5.0);
+    return root * lambda - Eigen::Vector4d::Constant((root - 1.0) / 4.0);
+  }
+
+  /// Barycentric coordinates of node a of nodes_of().
+  static Eigen::Vector4d node(int a) {
+    if (a < 4) return Eigen::Vector4d::Unit(a);
+    return 0.5 * (Eigen::Vector4d::Unit(edge(a - 4)[0]) + Eigen::Vector4d::Unit(edge(a - 4)[1]));
+  }
+
   /// The ten shape functions at barycentric coordinates λ.
   static Eigen::Matrix<double, 10, 1> phi(const Eigen::Vector4d& lambda) {
     Eigen::Matrix<double, 10, 1> phi;

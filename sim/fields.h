@@ -28,9 +28,10 @@ const FieldInfo& find_field(std::string_view name);
 struct Field {
   FieldInfo info;
   std::vector<double> elements;  // of tets, in their order
-  std::vector<double> vertices;  // means of the tets around, by their volume at rest
+  std::vector<double> vertices;  // means, by volume at rest, of what the tets around have at the vertex
 };
-/// Fields at positions q (3n), in the order of the names. Throws as find_field does.
+/// What a quadratic tet has at a vertex is extrapolated from its points; the von Mises stress is that of the
+/// mean stress. Fields at positions q (3n), in the order of the names. Throws as find_field does.
 std::vector<Field> fields_of(const Model&, const VecX& q, const std::vector<std::string>& names);
 
 }  // namespace lagomorph::sim

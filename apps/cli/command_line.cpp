@@ -154,6 +154,23 @@ const CommandRow& find_command(const std::string& name) {
   wrong_input(fmt::format("{} (usage: {})", message, usage(command)));
 }
 
+bool has_name(const OptionRow& option, std::string_view name) {
+  return fmt::format(",{},", option.flags).find(fmt::format(",{},", name)) != std::string::npos;
+}
+
+/// CLI11 takes the next argument for the value of `--name=`, an option too.
+void refuse_empty_values(const CommandRow& command, std::span<const std::string> arguments) {
+  for (const std::string& argument : arguments) {
+    if (argument == "--") return;
+    if (!argument.starts_with("--") || argument.find('=') != argument.size() - 1) continue;
+    const std::string name = argument.substr(0, argument.size() - 1);
+    for (const OptionRow& row : option_table()) {
+      if (row.value != nullptr && knows(command, row) && has_name(row, name))
+        wrong_input(fmt::format("{} needs a value: {} {}", name, name, row.value));
+    }
+  }
+}
+
 /// What CLI11 did not take: inputs, and options that nobody knows.
 std::vector<std::string> inputs_of(const CommandRow& command, const std::vector<std::string>& remaining) {
   std::vector<std::string> inputs;
@@ -224,6 +241,7 @@ CommandLine parse_command_line(std::span<const std::string> arguments) {
                    ? parser.add_flag(row.flags)->disable_flag_override()
                    : parser.add_option(row.flags, g.values)->expected(1)->take_all()->allow_extra_args(false);
   }
+  refuse_empty_values(command, arguments.subspan(1));
   try {
     // CLI11 takes them last first.
     parser.parse(std::vector<std::string>(arguments.rbegin(), std::prev(arguments.rend())));

@@ -51,6 +51,12 @@ void apply_threads(Options& o, const std::string& value) {
   o.threads = n;
 }
 
+void apply_color_frame(Options& o, const std::string& value) {
+  const FrameRange frame = parse_frames(value, "--color-frame ");
+  if (frame.first != frame.last) wrong_input(fmt::format("--color-frame {}: must be one frame", value));
+  o.color_frame = frame.first;
+}
+
 void apply_states(Options& o, const std::string& value) {
   int n = 0;
   const char* end = value.data() + value.size();
@@ -281,6 +287,8 @@ constexpr OptionRow option_rows[] = {
     {"--fields", "A,B,...", " export ",
      "von_mises, J, energy_density, displacement, young, poisson, density, body; by default all in vtu",
      [](Options& o, const std::string& v) { o.fields = names_of(v, "--fields"); }},
+    {"--color-frame", "N", " export ",
+     "of gltf: the frame of a field's colours; by default where values spread most", apply_color_frame},
     {"--heat", "FILE", " compare ", "write where they differ as a PNG; with --out, DIR/heat.png",
      [](Options& o, const std::string& v) { o.heat = non_empty(v, "--heat"); }},
     {"--mend", "OUT", " info ", "write the tet mesh without its stray vertices to OUT",

@@ -58,6 +58,7 @@ struct Options {
   std::vector<std::string> columns;             // plot --columns; empty: all
   std::vector<std::string> fields;              // export --fields; empty: as the format has it
   std::optional<std::string> format;            // plot, export --format
+  std::optional<int> color_frame;               // export --color-frame
   bool calibrate = false;                       // check --calibrate, with --yes into GOLDEN
   sim::MaterialSettings material;               // material --young ...; its model is the input
   std::optional<std::string> F;                 // material --F, nine numbers row by row

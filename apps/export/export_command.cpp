@@ -63,6 +63,11 @@ std::string collection(const std::vector<std::pair<double, std::string>>& files)
   return text + "</Collection>\n</VTKFile>\n";
 }
 
+bool shows_field(const SceneDesc& scene) {
+  return std::any_of(scene.body.begin(), scene.body.end(),
+                     [](const BodyDesc& body) { return body.shown.field != "none"; });
+}
+
 bool moves(const CameraDesc& c) {
   return !c.key.empty() || c.turntable.turns || c.turntable.period || c.follow != "none";
 }
@@ -73,13 +78,26 @@ bool zooms(const CameraDesc& c) {
                      [](const CameraKey& k) { return k.fov || k.orthographic || k.zoom; });
 }
 
-/// Of a state, in the ranges that pictures have: automatic ones of all states that RUN holds.
-std::vector<std::vector<render::Color>> colors_of(const ExportedScene& scene, const StatesOfRun& states,
-                                                  const std::function<sim::State(int)>& state, int frame) {
+/// The colours of one frame stand for all: of that asked for, or else of the first where a body shows most of
+/// its range. Ranges are those of pictures: automatic ones of all states that RUN holds. The frame, or none
+/// where nothing shows a field.
+std::optional<int> add_colors(ExportedScene& scene, const StatesOfRun& states,
+                              const std::function<sim::State(int)>& state, FrameRange frames,
+                              std::optional<int> wanted) {
   SurfaceFields fields(scene.desc, scene.model, scene.surfaces);
+  if (fields.is_empty()) return std::nullopt;
   if (fields.is_automatic())
     for (const auto& [seen, record] : states.records()) fields.see(state(seen).q);
-  return fields.colors(state(frame).q);
+  int best = frames.first;
+  if (!wanted) {
+    double most = -1.0;
+    for (int frame = frames.first; frame <= frames.last; ++frame) {
+      const double spread = fields.spread(state(frame).q);
+      if (spread > most + 1e-9) most = spread, best = frame;
+    }
+  }
+  scene.colors = fields.colors(state(wanted.value_or(best)).q);
+  return wanted.value_or(best);
 }
 
 /// A file a frame, and for vtu the list of their times. False: asked to stop.
@@ -110,11 +128,16 @@ ExitStatus export_command(const Options& options) {
   const RunPaths run(options.inputs.at(0));
   const ExportFormat& format = find_format(options.format.value_or("vtu"));
   const std::vector<std::string> fields = fields_for(options, format);
+  if (options.color_frame && !format.takes_colors)
+    wrong_input("--color-frame: of --format gltf, the others have no colours or those of each frame");
   const RunInfo info = info_of(run);
   const SceneDesc scene = load_scene(run.scene(), {});
+  if (options.color_frame && !shows_field(scene))
+    wrong_input("--color-frame: no body of the run shows a field");
   const StatesOfRun states(run, info.identity, scene.time.frames);
   const FrameRange frames = options.frames ? wanted_frames(options.frames, scene.time.frames) : states.all();
   states.require(frames);
+  if (options.color_frame) states.require({*options.color_frame, *options.color_frame});
   const sim::Model model = build_model(scene, progress);
   const auto state = [&](int frame) {
     return read_state(run.state(frame), frame, scene.time.fps, model.mesh().vertex_count());
@@ -131,7 +154,11 @@ ExitStatus export_command(const Options& options) {
     if (std::string_view(format.name) == "gltf" && zooms(scene.camera))
       progress.note(fmt::format("the camera keeps its field of view of frame {} in a .glb", frames.first));
   }
-  if (format.takes_colors) exported.colors = colors_of(exported, states, state, frames.first);
+  std::optional<int> color_frame;
+  if (format.takes_colors) color_frame = add_colors(exported, states, state, frames, options.color_frame);
+  if (color_frame && frames.last > frames.first)
+    progress.note(
+        fmt::format("colours of a .glb do not move: they are those of frame {} throughout", *color_frame));
   if (format.remarks != nullptr)
     for (const std::string& line : format.remarks(exported)) progress.note(line);
   const fs::path out = options.out.value_or(run.root() / "export");
@@ -158,6 +185,7 @@ ExitStatus export_command(const Options& options) {
                                    {"frames", {frames.first, frames.last}},
                                    {"fields", fields},
                                    {"files", files}};
+    if (color_frame) json["color_frame"] = *color_frame;
     print(json.dump() + "\n");
   } else if (!options.quiet) {
     print(fmt::format("{} frame{} as {} in {}\n", sequence.count(), sequence.count() == 1 ? "" : "s",

@@ -24,8 +24,7 @@ struct ExportedScene {
   std::vector<std::string> fields;                                         // names in sim::field_table()
   render::CameraSettings camera;                                           // that of the first frame
   std::function<render::CameraSettings(const sim::State&)> moving_camera;  // none: it stands still
-  /// Linear RGB of each body's vertices in the first frame, by the field it shows; none of one that shows
-  /// none.
+  /// Linear RGB of each body's vertices in one frame, by the field it shows; none of one that shows none.
   std::vector<std::vector<render::Color>> colors = {};
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "apps/overlay/overlay.h"
 
@@ -60,6 +61,45 @@ void fill(render::Picture& picture, const View& things, const ItemBuffer& ghost,
   }
 }
 
+/// Edges of a surface that were drawn into a picture, and what is seen of them.
+struct SeenEdge {
+  std::array<std::uint32_t, 2> ends;
+  SeenLines lines;
+
+  double length() const {
+    double sum = 0.0;
+    for (const Segment& s : lines.visible) sum += std::hypot(s.b.x - s.a.x, s.b.y - s.a.y);
+    return sum;
+  }
+};
+
+/// The visible parts but for crumbs: where a rough surface is nearly seen from the side, a few edges turn
+/// away from the eye by themselves. Such are chains of edges that are together shorter than a small part of
+/// all.
+SeenLines without_crumbs(const std::vector<SeenEdge>& edges, std::size_t vertex_count) {
+  constexpr double crumb = 0.03;
+  std::vector<std::size_t> parent(vertex_count);
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&](std::size_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  double all = 0.0;
+  for (const SeenEdge& edge : edges) {
+    if (edge.lines.visible.empty()) continue;
+    all += edge.length();
+    parent[root(edge.ends[0])] = root(edge.ends[1]);
+  }
+  std::vector<double> lengths(vertex_count);
+  for (const SeenEdge& edge : edges) lengths[root(edge.ends[0])] += edge.length();
+  SeenLines kept;
+  for (const SeenEdge& edge : edges) {
+    if (lengths[root(edge.ends[0])] < crumb * all) continue;
+    kept.visible.insert(kept.visible.end(), edge.lines.visible.begin(), edge.lines.visible.end());
+  }
+  return kept;
+}
+
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 2>> contours(const LineMesh& mesh, std::span<const Vec3> x,
@@ -97,10 +137,12 @@ void draw_ghost(render::Picture& picture, const View& things, const LineMesh& me
   const render::Ground none{.enabled = false};
   View view = style.over ? View(things.camera(), none) : things;
   view.items().draw(mesh.triangles, x, own);
-  SeenLines lines;
+  std::vector<SeenEdge> edges;
   for (const auto& edge : contours(mesh, x, things.camera()))
-    view.add_line(x[edge[0]], x[edge[1]], triangles_around(mesh, edge, own), lines);
-  draw_lines(picture, lines, {.color = style.color, .width = 1.4, .opacity = 0.9, .hidden = "none"});
+    view.add_line(x[edge[0]], x[edge[1]], triangles_around(mesh, edge, own),
+                  edges.emplace_back(SeenEdge{edge, {}}).lines);
+  draw_lines(picture, without_crumbs(edges, x.size()),
+             {.color = style.color, .width = 1.4, .opacity = 0.9, .hidden = "none"});
 }
 
 }  // namespace lagomorph::apps

@@ -9,7 +9,9 @@
 namespace lagomorph::apps {
 namespace {
 
-constexpr double widest_key = 0.37;  // plate, of the picture's width
+constexpr double widest_key = 0.37;   // plate, of the picture's width
+constexpr double widest_names = 0.2;  // names, likewise, but for what a short one needs
+constexpr double short_name = 12.0;   // of text heights
 
 }  // namespace
 
@@ -19,10 +21,11 @@ Swatches::Swatches(int width, int height, std::string title, std::vector<Swatch>
       text_(overlay_text_height(width, height)),
       pad_(1.2 * text_) {
   const double room = widest_key * width - 2.0 * pad_;
+  const double names = std::min(room - side() - gap(), std::max(widest_names * width, short_name * text_));
   title_ = fitting_text(title_, text_, room);
   inner_ = text_width(title_, text_);
   for (Swatch& row : rows_) {
-    row.name = fitting_text(row.name, text_, room - side() - gap());
+    row.name = fitting_text(row.name, text_, names);
     inner_ = std::max(inner_, side() + gap() + text_width(row.name, text_));
   }
   const double margin = 3.0 * overlay_unit(width, height);

@@ -164,6 +164,22 @@ std::map<std::string, std::array<double, 2>> SurfaceFields::ranges() const {
   return all;
 }
 
+double SurfaceFields::spread(const sim::VecX& q) const {
+  double most = 0.0;
+  for_values(q, [&](std::size_t, std::size_t scale, const std::vector<double>& values) {
+    const auto [low, high] = range_of(scales_[scale]);
+    double least_value = high, most_value = low;
+    for (const double value : values) {
+      if (!std::isfinite(value)) continue;
+      const double shown = std::clamp(value, low, high);
+      least_value = std::min(least_value, shown);
+      most_value = std::max(most_value, shown);
+    }
+    most = std::max(most, (most_value - least_value) / (high - low));
+  });
+  return most;
+}
+
 std::vector<std::vector<render::Color>> SurfaceFields::colors(const sim::VecX& q) const {
   std::vector<std::vector<render::Color>> all(surfaces_.size());
   if (is_empty()) return all;

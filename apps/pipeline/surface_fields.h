@@ -44,6 +44,8 @@ public:
   std::map<std::string, std::array<double, 2>> ranges() const;
   /// Gives the renderer's meshes the colours of positions q.
   void color_meshes(render::Renderer&, const sim::VecX& q) const;
+  /// How much of its range a body shows at positions q, 0 to 1; the most of all bodies.
+  double spread(const sim::VecX& q) const;
   /// The colours of each body's surface; none of a body that shows no field.
   std::vector<std::vector<render::Color>> colors(const sim::VecX& q) const;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/path/microfacet.h"
+#include "render/path/sampler.h"
 
 namespace lagomorph::render::path {
 namespace {
@@ -14,6 +15,47 @@ Material opaque_part(const Material& m) {
   const float part = 1.0F - m.transmission * (1.0F - m.metallic);
   if (part > 0.0F) opaque.metallic = std::min(m.metallic / part, 1.0F);
   return opaque;
+}
+
+Material white_base(Material m) {
+  m.base_color = Color::Ones();
+  return m;
+}
+
+/// Part of the light along a cosine that layers do not let out of the base below, and its mean over the
+/// hemisphere, 2 int L c dc.
+struct LayersLoss {
+  CosineTable at{};
+  float mean = 0.0F;
+};
+
+/// `loss` of the direction out with a cosine.
+template <typename Loss>
+LayersLoss layers_loss(const Loss& loss) {
+  LayersLoss table;
+  constexpr int intervals = CosineTable::intervals;
+  for (int i = 0; i <= intervals; ++i) {
+    const float cosine = static_cast<float>(i) / intervals;
+    const float z = std::max(cosine, 1e-3F);
+    table.at.at[i] = std::max(loss(Vec3(std::sqrt(1.0F - z * z), 0.0F, z)), 0.0F);
+    table.mean += table.at.at[i] * 2.0F * cosine * (i == intervals ? 0.5F : 1.0F) / intervals;
+  }
+  return table;
+}
+
+/// Mean of `value` of a path's random numbers, always the same ones.
+template <typename Value>
+float sampled_mean(const Value& value) {
+  constexpr int count = 256;
+  const FrameSamples numbers(0, 0, count);
+  double sum = 0.0;
+  for (int k = 0; k < count; ++k) sum += static_cast<double>(value(numbers.path(0, 0, k)));
+  return static_cast<float>(sum / count);
+}
+
+Vec3 sample_hemisphere(Pair s) {
+  const float sine = std::sqrt(std::max(1.0F - s.u * s.u, 0.0F));
+  return {sine * std::cos(2.0F * pi * s.v), sine * std::sin(2.0F * pi * s.v), s.u};
 }
 
 Material coat_material(const Material& m) { return {Color::Zero(), m.coat_roughness, 0.0F, 1.5F}; }
@@ -32,7 +74,59 @@ struct Bsdf::Layers {
         sheen_lobe(m.sheen_roughness),
         absorption(m),
         inside(m),
-        opaque_metallic(opaque_part(m).metallic) {}
+        opaque_metallic(opaque_part(m).metallic) {
+    if (coat <= 0.0F && sheen <= 0.0F) return;
+    const Brdf white(opaque_part(white_base(m)), 1.0F - cloudy);
+    outside_loss = layers_loss([&](const Vec3& wo) { return lost_outside(wo, white); });
+    if (transmission > 0.0F)
+      inside_loss = layers_loss([&](const Vec3& wo) { return lost_inside(mirrored(wo)); });
+    // Of light that leaves a cloudy inside, spread as let_out: as much as enters under the layers.
+    constexpr int intervals = CosineTable::intervals;
+    mean_under = 0.0F;
+    for (int i = 1; i <= intervals; ++i) {
+      const float cosine = static_cast<float>(i) / intervals;
+      const float weight = 2.0F * cosine * (i == intervals ? 0.5F : 1.0F) / intervals;
+      mean_under += weight * white.let_out(cosine) * under(cosine);
+    }
+  }
+
+  /// What the terms of sheen and base lose over a white base, since less of theirs leaves along wi than
+  /// arrives from wo.
+  float lost_outside(const Vec3& wo, const Brdf& white) const {
+    const Brdf::View base = white.view(wo);
+    const Dielectric::View clear = glass.view(wo);
+    const auto less = [&](float from, float to) { return std::max(from - to, 0.0F); };
+    const float coats = under_coat(wo.z()), over = under(wo.z());
+    return sampled_mean([&](const PathSamples& p) {
+      float lost = 0.0F;
+      if (transmission < 1.0F) {
+        const Brdf::Sample s = white.sample(base, p.pair(0));
+        if (s.value.pdf > 0.0F)
+          lost +=
+              (1.0F - transmission) * s.value.f_cos.y() / s.value.pdf * less(over, under(s.direction.z()));
+      }
+      if (transmission > 0.0F) {
+        const Brdf::Sample s = glass.sample(clear, p.pair(0), p.pair(1));
+        if (s.value.pdf > 0.0F && s.direction.z() > 0.0F)
+          lost += transmission * s.value.f_cos.y() / s.value.pdf * less(over, under(s.direction.z()));
+      }
+      if (sheen > 0.0F && coat > 0.0F) {
+        const Vec3 wi = sample_hemisphere(p.pair(0));
+        lost += sheen * sheen_lobe.evaluate(wo, wi) * wi.z() * 2.0F * pi * less(coats, under_coat(wi.z()));
+      }
+      return lost;
+    });
+  }
+  /// Likewise of light that goes out through the clear surface.
+  float lost_inside(const Vec3& wo) const {
+    const Dielectric::View clear = glass.view(wo);
+    const float n2 = glass.ior() * glass.ior();
+    return sampled_mean([&](const PathSamples& p) {
+      const Brdf::Sample s = glass.sample(clear, p.pair(0), p.pair(1));
+      if (s.value.pdf <= 0.0F || s.direction.z() <= 0.0F) return 0.0F;
+      return transmission * s.value.f_cos.y() / n2 / s.value.pdf * (1.0F - under(s.direction.z()));
+    });
+  }
 
   /// 1 - C; of the coat alone.
   float under_coat(float cosine) const {
@@ -52,6 +146,8 @@ struct Bsdf::Layers {
   Absorption absorption;
   CloudyInside inside;
   float opaque_metallic;
+  LayersLoss outside_loss, inside_loss;
+  float mean_under = 1.0F;  // 2 int let_out under c dc
 };
 
 Bsdf::Bsdf(const Material& m)
@@ -77,6 +173,16 @@ Bsdf::View Bsdf::view(const Vec3& wo, float least_alpha, const Color* base_color
   const Layers& l = *layers_;
   const float cosine = wo.z();
   v.over = l.under(cosine);
+  const LayersLoss& loss = outside ? l.outside_loss : l.inside_loss;
+  float again = 0.0F;
+  if (loss.mean > 0.0F) {
+    const float lost = look_up(loss.at, std::abs(cosine));
+    const Color opaque = base_color == nullptr ? color(brdf_.constants().base_color) : *base_color;
+    const Color r = outside ? Color(l.transmission + (1.0F - l.transmission) * opaque) : Color(Color::Ones());
+    const Color back = r * r * (1.0F - loss.mean) / (1.0F - r * loss.mean);
+    v.again = lost * inv_pi / loss.mean * back;
+    again = lost * luminance(f3(back));
+  }
   if (outside && l.coat > 0.0F) {
     v.coat = l.coat_lobe.view(wo, least_alpha);
     v.coat_pick = 1.0F - l.under_coat(cosine);
@@ -88,12 +194,13 @@ Bsdf::View Bsdf::view(const Vec3& wo, float least_alpha, const Color* base_color
     v.glass = l.glass.view(wo, least_alpha);
     glass = v.over * l.transmission;
   }
-  const float all = v.coat_pick + v.sheen_pick + base + glass;
+  const float all = v.coat_pick + v.sheen_pick + base + glass + again;
   if (all <= 0.0F) return v;
   v.base_pick = base / all;
   v.glass_pick = glass / all;
   v.coat_pick /= all;
   v.sheen_pick /= all;
+  v.again_pick = again / all;
   return v;
 }
 
@@ -109,11 +216,11 @@ Brdf::Value Bsdf::evaluate_layers(const View& v, const Vec3& wi) const {
   if (v.emerging) {
     if (wi.z() <= 0.0F) return {};
     const float pdf = wi.z() * inv_pi;
-    return {Color::Constant(pdf * l.under(wi.z()) * brdf_.let_out(wi.z())), pdf};
+    return {Color::Constant(pdf * l.under(wi.z()) / l.mean_under * brdf_.let_out(wi.z())), pdf};
   }
   const bool outside = v.wo.z() > 0.0F;
   const bool back = (wi.z() > 0.0F) == outside;
-  const float between = v.over * l.under(wi.z());
+  const float between = std::min(v.over, l.under(wi.z()));
   Brdf::Value sum;
   const auto add = [&](const Brdf::Value& lobe, const Color& weight, float pick) {
     sum.f_cos += weight * lobe.f_cos;
@@ -124,10 +231,15 @@ Brdf::Value Bsdf::evaluate_layers(const View& v, const Vec3& wi) const {
     add(base, Color::Constant(between * (1.0F - l.transmission)), v.base_pick);
   }
   if (transmits_) add(l.glass.evaluate(v.glass, wi), Color::Constant(between * l.transmission), v.glass_pick);
+  if (back && v.again_pick > 0.0F) {
+    const float cosine = std::abs(wi.z());
+    const float lost = look_up(outside ? l.outside_loss.at : l.inside_loss.at, cosine);
+    add({Color::Constant(lost * cosine), cosine * inv_pi}, v.again, v.again_pick);
+  }
   if (!back || !outside) return sum;
   if (l.coat > 0.0F) add(l.coat_lobe.evaluate(v.coat, wi), Color::Constant(l.coat), v.coat_pick);
   if (l.sheen > 0.0F) {
-    const float coats = l.under_coat(v.wo.z()) * l.under_coat(wi.z());
+    const float coats = std::min(l.under_coat(v.wo.z()), l.under_coat(wi.z()));
     const Brdf::Value lobe{Color::Constant(l.sheen_lobe.evaluate(v.wo, wi) * wi.z()), 0.5F * inv_pi};
     add(lobe, coats * l.sheen_color, v.sheen_pick);
   }
@@ -150,7 +262,7 @@ Bsdf::Sample Bsdf::sample(const View& v, Pair s, Pair lobe, Pair choice) const {
     if (glass.value.pdf <= 0.0F) return {glass.direction, {}};
     if (v.glass_pick >= 1.0F) {
       // Nothing else scatters: with the microfacet as it was sampled.
-      const float between = v.over * l.under(glass.direction.z()) * l.transmission;
+      const float between = std::min(v.over, l.under(glass.direction.z())) * l.transmission;
       return {glass.direction, {between * glass.value.f_cos, glass.value.pdf}, true};
     }
     return {glass.direction, evaluate_layers(v, glass.direction), true};
@@ -159,8 +271,12 @@ Bsdf::Sample Bsdf::sample(const View& v, Pair s, Pair lobe, Pair choice) const {
   if (left < v.coat_pick) {
     wi = l.coat_lobe.sample(v.coat, s).direction;
   } else if (left - v.coat_pick < v.sheen_pick) {
-    const float sine = std::sqrt(std::max(1.0F - s.u * s.u, 0.0F));
-    wi = Vec3(sine * std::cos(2.0F * pi * s.v), sine * std::sin(2.0F * pi * s.v), s.u);
+    wi = sample_hemisphere(s);
+  } else if (left - v.coat_pick - v.sheen_pick < v.again_pick) {
+    wi = sample_cosine(s);
+    if (wi.z() <= 0.0F) return {wi, {}};
+    if (v.wo.z() <= 0.0F) wi = mirrored(wi);
+    return {wi, evaluate_layers(v, wi)};
   } else {
     wi = brdf_.sample(v.base, s).direction;
     if (wi.z() <= 0.0F) return {wi, {}};

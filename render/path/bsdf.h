@@ -10,11 +10,15 @@
 namespace lagomorph::render::path {
 
 /// All of a material: a Brdf, and where it has them the layers of the principled material. From above,
-///   f = coat + (1 - C(o)) (1 - C(i)) [sheen + (1 - S(o)) (1 - S(i)) (t dielectric + (1 - t) brdf)]
-/// with C and S the directional albedos of coat and sheen (with their weights; 1 - C and 1 - S only of
-/// directions outside) and t = transmission (1 - metallic). So it is reciprocal and never reflects more than
-/// arrives. Directions are unit vectors that point away from the surface. The frame's z is along the normal
-/// on the side of the arrival, but where the material transmits it points outside and wo may be below.
+///   f = coat + min(c(o), c(i)) sheen + min(u(o), u(i)) (t dielectric + (1 - t) brdf) + a L(o) L(i) / (pi
+///   mean L)
+/// with t = transmission (1 - metallic), c = 1 - the directional albedo of the coat, u = c (1 - that of the
+/// sheen) (with their weights; 1 of directions inside), and L what the other terms lose over a white base on
+/// the side of o and i, which the layers reflect back to it: of a base of albedo r the part
+/// a = r^2 (1 - mean L) / (1 - r mean L) comes out after all, as in [Kulla and Conty 2017]. So f is
+/// reciprocal and over a white base reflects exactly what arrives. Directions are unit vectors that point
+/// away from the surface. The frame's z is along the normal on the side of the arrival, but where the
+/// material transmits it points outside and wo may be below.
 class Bsdf {
 public:
   explicit Bsdf(const Material&);
@@ -33,7 +37,9 @@ public:
     Vec3 wo;
     bool emerging = false;  // light that leaves a cloudy inside: wo has no meaning
     float base_pick = 1.0F, glass_pick = 0.0F, coat_pick = 0.0F, sheen_pick = 0.0F;  // of sample()
-    float over = 1.0F;  // (1 - C(wo)) (1 - S(wo))
+    float again_pick = 0.0F;
+    float over = 1.0F;            // u(wo)
+    Color again = Color::Zero();  // a L(wo) / (pi mean L)
     Brdf::View coat = {};
     Dielectric::View glass = {};
   };

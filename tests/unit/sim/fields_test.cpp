@@ -8,6 +8,7 @@
 #include "sim/io/field_writers.h"
 #include "sim/kinematics.h"
 #include "sim/materials/table.h"
+#include "sim/refine.h"
 #include "tests/unit/sim/mesh_fixtures.h"
 
 namespace lagomorph::sim {
@@ -144,6 +145,80 @@ TEST(Fields, VerticesHaveMeansByVolume) {
     }
     EXPECT_NEAR(J.vertices[static_cast<std::size_t>(v)], sum / volume, 1e-13);
   }
+}
+
+/// A body of quadratic tets of no two shapes whose nodes are moved by u(X).
+struct QuadraticCube {
+  template <typename U>
+  explicit QuadraticCube(const U& u) : model({body()}, Vec3::Zero()), q(model.initial_state().q) {
+    for (Eigen::Index v = 0; v < model.mesh().vertex_count(); ++v)
+      q.segment<3>(3 * v) += u(Vec3(model.mesh().X.row(v).transpose()));
+  }
+  static BodyInput body() {
+    BodyInput body = cube_body(1, "linear");
+    body.mesh = with_quadratic_tets(irregular_cube_mesh(3));
+    return body;
+  }
+  Model model;
+  VecX q;
+};
+
+/// The patch test of quadratic tets: a motion that they hold exactly has its own fields at every vertex.
+TEST(Fields, OfAQuadraticMotionAreExactAtTheVerticesOfQuadraticTets) {
+  const Vec3 a(0.1, -0.2, 0.05), b(0.3, 0.1, -0.2), c(-0.1, 0.2, 0.1);
+  const auto u = [&](const Vec3& X) {
+    return Vec3(a * X.x() * X.x() + b * X.y() * X.z() + c * X.z() * (X.z() - X.x()));
+  };
+  const QuadraticCube cube(u);
+  const auto fields = fields_of(cube.model, cube.q, {"J", "energy_density"});
+  for (Eigen::Index v = 0; v < cube.model.mesh().vertex_count(); ++v) {
+    const Vec3 X = cube.model.mesh().X.row(v);
+    Mat3 F = Mat3::Identity();
+    F.col(0) += 2 * X.x() * a - X.z() * c;
+    F.col(1) += X.z() * b;
+    F.col(2) += X.y() * b + (2 * X.z() - X.x()) * c;
+    const Mat3 strain = 0.5 * (F + F.transpose()) - Mat3::Identity();
+    const double psi =
+        kMu * strain.squaredNorm() + kLambda / 2 * strain.trace() * strain.trace();  // ψ of `linear`
+    EXPECT_NEAR(fields[0].vertices[static_cast<std::size_t>(v)], F.determinant(), 1e-13);
+    EXPECT_NEAR(fields[1].vertices[static_cast<std::size_t>(v)], psi, 1e-12 * kMu);
+  }
+}
+
+/// Torsion of a round bar: u = θ x (0, -z, y) about the x axis, σ_xy and σ_xz = mu θ (-z, y). The mean of the
+/// elements would be wrong by half an element.
+TEST(Fields, OfATwistedBarAreItsClosedForm) {
+  const double twist = 1e-7;  // [1/m], small: σ is that of the linear theory
+  const QuadraticCube cube([&](const Vec3& X) { return Vec3(twist * X.x() * Vec3(0, -X.z(), X.y())); });
+  const Field stress = fields_of(cube.model, cube.q, {"von_mises"}).at(0);
+  const double most = std::sqrt(6.0) * kMu * twist;
+  for (Eigen::Index v = 0; v < cube.model.mesh().vertex_count(); ++v) {
+    const double r = cube.model.mesh().X.row(v).tail<2>().norm();
+    EXPECT_NEAR(stress.vertices[static_cast<std::size_t>(v)], std::sqrt(3.0) * kMu * twist * r, 1e-6 * most);
+  }
+}
+
+TEST(Fields, VonMisesOfAVertexIsThatOfTheMeanStress) {
+  const BodyInput body = cube_body(2);
+  const Model model({body}, Vec3::Zero());
+  VecX q = model.initial_state().q;
+  for (Eigen::Index i = 0; i < q.size(); ++i) q(i) += 0.03 * std::sin(static_cast<double>(7 * i));
+  const auto material = make_material_point(body.settings.material, "");
+  const TetMesh& mesh = model.mesh();
+  std::vector<Mat3> sums(static_cast<std::size_t>(mesh.vertex_count()), Mat3::Zero());
+  std::vector<double> counts(sums.size());  // all tets have the same volume
+  for (const Tet& tet : mesh.tets) {
+    TetCorners X;
+    for (int a = 0; a < 4; ++a) X.col(a) = mesh.X.row(tet[a]).transpose();
+    const Mat3 F = deformation_gradient(gather_corners(q, tet), dphi_dX(X));
+    for (const int v : tet) {
+      sums[static_cast<std::size_t>(v)] += cauchy_stress(material->dpsi_dF(F), F);
+      counts[static_cast<std::size_t>(v)] += 1;
+    }
+  }
+  const Field stress = fields_of(model, q, {"von_mises"}).at(0);
+  for (std::size_t v = 0; v < sums.size(); ++v)
+    EXPECT_NEAR(stress.vertices[v], von_mises(sums[v] / counts[v]), 1e-9 * kMu);
 }
 
 TEST(Fields, DisplacementIsTheDistanceFromRest) {

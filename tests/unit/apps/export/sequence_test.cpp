@@ -121,12 +121,14 @@ TEST_F(ExportSequence, GltfHasLookAndCamera) {
   EXPECT_NEAR(node["rotation"][1].get<double>(), 0.0, 1e-6);
 }
 
-/// Those of the first exported frame in the range of all states, linear as the pictures'.
+/// Those of one frame in the range of all states, linear as the pictures': by default the exported one that
+/// shows most of the range, of a bar that begins to fall the last.
 TEST_F(ExportSequence, GltfHasTheColorsOfAField) {
   const Arguments field = {"--set", "body.0.look={ field = 'displacement', base_color = [0.25, 0.5, 0.75] }"};
   expect(0, simulate("run", field));
-  for (const char* frames : {"0..1", "3"}) {
-    exported("gltf", {"--frames", frames});
+  for (const Arguments& asked : {Arguments{"--frames", "0..1", "--color-frame", "0"},
+                                 Arguments{"--frames", "3"}, Arguments{"--frames", "0..3"}, Arguments{}}) {
+    EXPECT_EQ(exported("gltf", asked)["color_frame"], asked.size() < 4 ? 3 : 0);
     const Glb glb(read_all(at("run/export/bar.glb")));
     const Json& primitive = glb.json["meshes"].at(0)["primitives"].at(0);
     const std::vector<float> colors = glb.values<float>(primitive["attributes"]["COLOR_0"]);
@@ -141,7 +143,7 @@ TEST_F(ExportSequence, GltfHasTheColorsOfAField) {
       from_first = std::max(from_first, (c - first).abs().maxCoeff());
       to_last = std::min(to_last, (c - last).abs().maxCoeff());
     }
-    if (std::string(frames) == "3") {
+    if (asked.size() < 4) {
       EXPECT_LT(to_last, 1e-5F) << "the furthest of all frames";
       EXPECT_GT(from_first, 0.5F);
     } else {
@@ -151,6 +153,10 @@ TEST_F(ExportSequence, GltfHasTheColorsOfAField) {
   expect(0, simulate("plain"));
   expect(0, {"export", at("plain").string(), "--format", "gltf", "--quiet"});
   EXPECT_EQ(Glb(read_all(at("plain/export/bar.glb"))).json.dump().find("COLOR_0"), std::string::npos);
+  const std::string run = at("run").string(), plain = at("plain").string();
+  expect(2, {"export", run, "--format", "usda", "--color-frame", "1"});
+  expect(2, {"export", run, "--format", "gltf", "--color-frame", "9"});
+  expect(2, {"export", plain, "--format", "gltf", "--color-frame", "1"});
 }
 
 /// Numbers that single precision holds exactly. The names are those of the extensions' specifications.

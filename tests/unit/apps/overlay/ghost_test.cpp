@@ -75,6 +75,28 @@ TEST(Ghost, FillIsNotSeenOnItself) {
   EXPECT_EQ(drawn(things, {.outline = false}), 0);
 }
 
+/// A thing so small that it is taken for a fold of the surface.
+TEST(Ghost, OutlineHasNoCrumbs) {
+  std::vector<Triangle> both = cube;
+  std::vector<Vec3> x = corners;
+  const auto add_triangle = [&](float size) {
+    const auto first = static_cast<std::uint32_t>(x.size());
+    both.push_back({first, first + 1, first + 2});
+    for (const Vec3& corner : {Vec3(0, 0, 0), Vec3(size, 0, 0), Vec3(0, size, 0)})
+      x.push_back(corner + Vec3(-0.2F, -0.2F, 0.7F));
+  };
+  const auto outline = [&] {
+    render::Picture picture = white();
+    draw_ghost(picture, view(), line_mesh(both), x, {.fill = false});
+    return picture.rgb;
+  };
+  const auto alone = outline();
+  add_triangle(0.02F);
+  EXPECT_EQ(outline(), alone);
+  add_triangle(0.3F);
+  EXPECT_NE(outline(), alone);
+}
+
 TEST(Ghost, OutlineOrFill) {
   const int fill = drawn(view(), {.outline = false}), outline = drawn(view(), {.fill = false});
   EXPECT_GT(outline, 300);

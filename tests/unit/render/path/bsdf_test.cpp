@@ -50,7 +50,9 @@ std::vector<Material> layered() {
   };
   add([](Material& m) { m.coat = 1.0F, m.coat_roughness = 0.4F; });
   add([](Material& m) { m.coat = 0.5F, m.coat_roughness = 0.7F, m.metallic = 1.0F; });
+  add([](Material& m) { m.coat = 1.0F, m.coat_roughness = 0.4F, m.metallic = 1.0F, m.roughness = 1.0F; });
   add([](Material& m) { m.sheen = 1.0F; });
+  add([](Material& m) { m.sheen = 1.0F, m.metallic = 1.0F; });
   add([](Material& m) { m.sheen = 1.0F, m.sheen_roughness = 0.2F; });
   add([](Material& m) { m.sheen = 0.7F, m.sheen_roughness = 1.0F, m.coat = 1.0F, m.coat_roughness = 0.5F; });
   add([](Material& m) { m.transmission = 0.5F; });
@@ -72,14 +74,34 @@ TEST(Bsdf, WithoutLayersItIsTheBrdf) {
             brdf.sample(brdf.view(wo), {0.3F, 0.6F}).direction);
 }
 
-TEST(Bsdf, LayersNeverMakeLight) {
+TEST(Bsdf, LayersOverAWhiteBaseLoseNothing) {
   for (const Material& m : layered()) {
     const Bsdf bsdf(m);
-    for (const double cosine : {0.03, 0.1, 0.3, 0.6, 1.0}) {
-      const double albedo = sampled_albedo(bsdf, direction(cosine, 0.3));
-      EXPECT_LE(albedo, 1.005) << m.coat << " " << m.sheen << " " << m.transmission << " " << cosine;
-      EXPECT_GE(albedo, 0.6) << m.coat << " " << m.sheen << " " << m.transmission << " " << cosine;
+    for (const double cosine : {0.03, 0.1, 0.3, 0.6, 1.0, -0.1, -0.6, -1.0}) {
+      if (cosine < 0.0 && m.transmission == 0.0F) continue;
+      EXPECT_NEAR(sampled_albedo(bsdf, direction(cosine, 0.3)), 1.0, 0.01)
+          << m.coat << " " << m.sheen << " " << m.transmission << " " << m.metallic << " " << cosine;
     }
+  }
+}
+
+/// Of a base of albedo r what the layers reflect back is reflected again, so that it is less than r times as
+/// bright.
+TEST(Bsdf, LayersMakeADarkBaseDarker) {
+  Material m = white(1.0F);
+  m.ior = 1.0F;
+  m.base_color = Color::Constant(0.5F);
+  m.sheen_tint = Color::Zero();
+  m.coat = 1.0F;
+  const Bsdf half(m);
+  m.base_color = Color::Zero();
+  const Bsdf coat(m);
+  for (const double cosine : {0.3, 0.9}) {
+    const Vec3 wo = direction(cosine, 0.3);
+    const double of_coat = sampled_albedo(coat, wo);
+    const double of_base = sampled_albedo(half, wo) - of_coat;
+    EXPECT_LT(of_base, 0.5 * (1.0 - of_coat));
+    EXPECT_GT(of_base, 0.45 * (1.0 - of_coat));
   }
 }
 

@@ -108,6 +108,30 @@ TEST(PathRenderer, NoMaterialShinesInAFurnace) {
   }
 }
 
+TEST(PathRenderer, LayersVanishInAWhiteFurnaceToo) {
+  CameraSettings camera;
+  camera.position = Vec3(0, 0, 4);
+  camera.look_at = Vec3::Zero();
+  for (const auto& [coat, sheen, metallic, subsurface] :
+       {std::array{1.0F, 0.0F, 0.0F, 0.0F}, std::array{1.0F, 0.0F, 1.0F, 0.0F},
+        std::array{0.0F, 1.0F, 0.0F, 0.0F}, std::array{1.0F, 1.0F, 0.0F, 0.0F},
+        std::array{1.0F, 0.5F, 0.0F, 1.0F}}) {
+    RenderScene scene = empty_scene();
+    scene.sky = uniform_sky(1.0F);
+    scene.meshes = {make_sphere(4, 1.0F, Vec3::Zero())};
+    Material& m = scene.meshes[0].material;
+    m = {Color::Ones(), 0.5F, metallic, 1.5F};
+    m.coat = coat;
+    m.coat_roughness = 0.3F;
+    m.sheen = sheen;
+    m.subsurface = subsurface;
+    m.subsurface_color = Color::Ones();
+    m.subsurface_radius = Color::Constant(2.0F);
+    EXPECT_NEAR(mean_color(draw(scene, camera, settings(16, 16, 256, 16))).y(), 1.0, 0.01)
+        << coat << " " << sheen << " " << metallic << " " << subsurface;
+  }
+}
+
 TEST(PathRenderer, AGlossySphereHasItsDirectionalAlbedo) {
   // Where the camera looks straight at the sphere, a furnace shows the albedo at normal incidence: by
   // quadrature.
