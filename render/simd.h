@@ -11,3 +11,10 @@
 /// Loops over lanes become vector instructions where they are inlined into functions of several instruction
 /// sets.
 #define LAGOMORPH_INLINE inline __attribute__((always_inline))
+
+/// Before a loop whose rows are in memory of their own: no element depends on another.
+#ifdef __clang__
+#define LAGOMORPH_ROWS _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define LAGOMORPH_ROWS _Pragma("GCC ivdep")
+#endif

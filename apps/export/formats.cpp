@@ -67,11 +67,11 @@ std::string obj(const ExportedScene& scene, const sim::State& state) {
 }
 
 /// The explicit table: a new format is one row.
-constexpr ExportFormat formats[] = {{"vtu", ".vtu", true, true, vtu, nullptr, nullptr},
-                                    {"ply", ".ply", true, false, ply, nullptr, nullptr},
-                                    {"obj", ".obj", false, false, obj, nullptr, nullptr},
-                                    {"gltf", ".glb", false, false, nullptr, write_gltf, gltf_remarks, true},
-                                    {"usda", ".usda", true, false, nullptr, write_usd, usd_remarks}};
+constexpr ExportFormat formats[] = {{"vtu", ".vtu", true, true, false, vtu, nullptr, nullptr},
+                                    {"ply", ".ply", true, false, false, ply, nullptr, nullptr},
+                                    {"obj", ".obj", false, false, false, obj, nullptr, nullptr},
+                                    {"gltf", ".glb", false, false, true, nullptr, write_gltf, gltf_remarks},
+                                    {"usda", ".usda", true, false, false, nullptr, write_usd, usd_remarks}};
 
 }  // namespace
 

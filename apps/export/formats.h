@@ -49,11 +49,11 @@ struct ExportFormat {
   const char* extension;
   bool takes_fields;                                              // scalars of vertices, of tets in vtu
   bool all_fields;                                                // when none is asked for
+  bool takes_colors;                                              // of vertices, as ExportedScene has them
   std::string (*frame)(const ExportedScene&, const sim::State&);  // the file of a frame, or null
   bool (*sequence)(const ExportedSequence&,
                    const std::filesystem::path& file);        // or that of all; false: stopped
   std::vector<std::string> (*remarks)(const ExportedScene&);  // what of the look it leaves out, or null
-  bool takes_colors = false;                                  // of vertices, as ExportedScene has them
 };
 
 /// Throws Error(wrong_input) that lists the formats for a name that is none.

@@ -43,6 +43,7 @@ struct SinCos {
 };
 /// Of an angle in turns, in [0, 2^20), to 1e-7. The polynomials on +-pi/4 are those of [Cephes, sinf].
 LAGOMORPH_INLINE SinCos sincos_of_turns(float turns) {
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): no turn is negative, and lround would be a call a lane
   const auto quarter = static_cast<std::int32_t>(turns * 4.0F + 0.5F);
   const float x = (turns - 0.25F * static_cast<float>(quarter)) * (2.0F * std::numbers::pi_v<float>);
   const float z = x * x;

@@ -12,17 +12,17 @@ struct PathTracer::Batch {
   Row<MeshHit> hits;  // of the paths' rays
   Meetings meetings;
   Row<std::uint32_t> meeting;  // of each ray that meets a mesh
-  std::vector<Range> meshes;   // the meetings of each mesh
   GroundRows ground;
   Row3<> met;  // light of area lights that scattered rays meet
   Row<float> to_light;
   Row3<> behind;  // light of the sky, or the background, where the rays go
   SurfaceRows surfaces;
-  std::vector<SurfaceRange> ranges;  // of surfaces of a material
-  SurfaceRow<std::uint32_t> light;   // picked for each surface
+  SurfaceRow<std::uint32_t> light;  // picked for each surface
   PairRows pairs, choices;
   ArrivingRows arriving;
   ScatterRows scattered;
+  std::vector<Range> meshes;         // the meetings of each mesh
+  std::vector<SurfaceRange> ranges;  // of surfaces of a material
 };
 
 }  // namespace lagomorph::render::path

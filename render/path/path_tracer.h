@@ -161,8 +161,6 @@ private:
   bool any_visible_ = false;  // of the lights
   float clamp_;               // of indirect light; 0: none
 
-  std::uint64_t key_ = 0;  // of the batch's sample numbers, whose indices `numbers_` has by lane
-  Row<std::uint32_t> numbers_{};
   std::unique_ptr<PathRows> paths_, next_;
   std::unique_ptr<ShadowRows> shadows_;
   std::unique_ptr<Batch> batch_;
@@ -174,8 +172,11 @@ private:
   std::vector<Ray> passing_rays_;
   std::vector<MeshHit> passing_hits_;
   std::vector<Color> radiance_;       // of each lane
-  Row<float> times_{};                // of each lane, where rays have them
   std::vector<FirstHit> first_hits_;  // of each lane, where they are wanted
+
+  std::uint64_t key_ = 0;  // of the batch's sample numbers, whose indices `numbers_` has by lane
+  Row<std::uint32_t> numbers_{};
+  Row<float> times_{};  // of each lane, where rays have them
 };
 
 }  // namespace lagomorph::render::path

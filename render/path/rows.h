@@ -16,6 +16,7 @@ inline constexpr std::size_t batch_size = 512;
 
 /// A cache line longer than n: rows of a power of two would all meet in the same few lines of the cache.
 template <class T, std::size_t n = batch_size>
+// NOLINTNEXTLINE(bugprone-sizeof-expression): of a row of pointers, the size of a pointer is meant
 struct alignas(64) Row : std::array<T, n + 64 / sizeof(T)> {};
 
 template <std::size_t n = batch_size>

@@ -4,8 +4,6 @@
 
 #include "render/path/light_formulas.h"
 
-#define LAGOMORPH_ROWS _Pragma("GCC ivdep")
-
 namespace lagomorph::render::path {
 namespace {
 

@@ -39,7 +39,8 @@ struct Dots {
     const std::array<float, 2>& s = steps[static_cast<std::size_t>(sheet % 4)];
     step_x = s[0];
     step_y = s[1];
-    shift = 0.6180339887F * static_cast<float>(sheet / 4);
+    const int fours = sheet / 4;
+    shift = 0.6180339887F * static_cast<float>(fours);
   }
   bool at(int x, int y) const {
     const float along = static_cast<float>(x) * step_x + static_cast<float>(y) * step_y + shift;
@@ -76,6 +77,7 @@ struct DepthPlane {
   }
   LAGOMORPH_INLINE std::uint16_t at(float px, float py) const {
     const float depth = z + by_x * (px - x) + by_y * (py - y);
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings): low >= 0, and lround would be a call a texel
     return static_cast<std::uint16_t>(static_cast<std::int32_t>(std::min(std::max(depth, low), high) + 0.5F));
   }
 };

@@ -46,7 +46,8 @@ LAGOMORPH_RENDER_SIMD void add_neighbours(const Rows& depth, const float* tolera
                                           float* sum_a, float* sum_b) {
   constexpr std::array<float, 3> weights = {1.0F, 2.0F, 1.0F};
   const Rows d = depth, of_a = a, of_b = b;
-  _Pragma("GCC ivdep") for (std::ptrdiff_t x = first; x < last; ++x) {
+  LAGOMORPH_ROWS
+  for (std::ptrdiff_t x = first; x < last; ++x) {
     const float here = d.of[1][x], reach = tolerance[x];
     float total_a = 0.0F, total_b = 0.0F;
     for (std::size_t j = 0; j < 3; ++j) {
