@@ -17,9 +17,10 @@ struct MapPoint {
   float x, y, z;
 };
 
-/// Rows [first, last) of a square map.
+/// Rows [first, last) of a square map, and of one seen from the other side where that is asked for.
 struct Band {
   std::uint16_t* map;
+  std::uint16_t* from_below;  // or nullptr
   int size, first, last;
 };
 
@@ -84,16 +85,10 @@ struct DepthPlane {
 
 constexpr int texels_at_once = 16;
 
+/// A triangle of positive area into a map of the band's rows.
 template <bool dotted>
-LAGOMORPH_INLINE void draw_triangle(const Caster& mesh, MapPoint a, MapPoint b, const MapPoint& c,
-                                    const Band& band) {
-  float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  const bool front = area > 0.0F;
-  if (!(area != 0.0F) || (!front && mesh.closed && !dotted)) return;
-  if (!front) {
-    std::swap(a, b);
-    area = -area;
-  }
+LAGOMORPH_INLINE void put_triangle(const Dots& dots, const MapPoint& a, const MapPoint& b, const MapPoint& c,
+                                   float area, const Band& band, std::uint16_t* map) {
   // Texels whose middles may be inside.
   const auto first = [](float low, int least) {
     return std::max(static_cast<int>(std::ceil(std::max(low, -1.0F) - 0.5F)), least);
@@ -108,7 +103,6 @@ LAGOMORPH_INLINE void draw_triangle(const Caster& mesh, MapPoint a, MapPoint b, 
   if (y0 > y1 || x0 > x1) return;
   const Edge of_a(b, c), of_b(c, a), of_c(a, b);
   const DepthPlane plane(a, b, c, area);
-  const Dots dots(mesh, front);
   const auto put = [&](std::uint16_t* row, int x, float py, int y) {
     const float px = static_cast<float>(x) + 0.5F;
     const int inside = static_cast<int>(of_a.at(px, py) >= of_a.least) &
@@ -126,7 +120,7 @@ LAGOMORPH_INLINE void draw_triangle(const Caster& mesh, MapPoint a, MapPoint b, 
   };
   for (int y = y0; y <= y1; ++y) {
     const float py = static_cast<float>(y) + 0.5F;
-    std::uint16_t* row = band.map + static_cast<std::size_t>(y) * static_cast<std::size_t>(band.size);
+    std::uint16_t* row = map + static_cast<std::size_t>(y) * static_cast<std::size_t>(band.size);
     if (dotted || x1 - x0 < texels_at_once / 4) {
       for (int x = x0; x <= x1; ++x) put(row, x, py, y);
     } else {
@@ -137,14 +131,32 @@ LAGOMORPH_INLINE void draw_triangle(const Caster& mesh, MapPoint a, MapPoint b, 
   }
 }
 
-LAGOMORPH_RENDER_SIMD void draw_mesh(const Caster& mesh, std::span<const MapPoint> points, const Band& band) {
-  if (mesh.opacity < 1.0F) {
-    for (const Triangle& t : mesh.triangles)
-      draw_triangle<true>(mesh, points[t[0]], points[t[1]], points[t[2]], band);
-  } else {
-    for (const Triangle& t : mesh.triangles)
-      draw_triangle<false>(mesh, points[t[0]], points[t[1]], points[t[2]], band);
+/// The depth from the other side.
+MapPoint turned(const MapPoint& p) { return {p.x, p.y, static_cast<float>(no_depth) - p.z}; }
+
+template <bool dotted>
+LAGOMORPH_INLINE void draw_triangles(const Caster& mesh, std::span<const MapPoint> points, const Band& band) {
+  const Dots of_front(mesh, true), of_back(mesh, false);
+  const bool both_sides = dotted || !mesh.closed;
+  for (const Triangle& t : mesh.triangles) {
+    MapPoint a = points[t[0]], b = points[t[1]];
+    const MapPoint c = points[t[2]];
+    float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    if (!(area != 0.0F)) continue;
+    const bool front = area > 0.0F;
+    if (!front) {
+      std::swap(a, b);
+      area = -area;
+    }
+    const Dots& dots = front ? of_front : of_back;
+    if (front || both_sides) put_triangle<dotted>(dots, a, b, c, area, band, band.map);
+    if (band.from_below != nullptr && (!front || both_sides))
+      put_triangle<dotted>(dots, turned(a), turned(b), turned(c), area, band, band.from_below);
   }
+}
+
+LAGOMORPH_RENDER_SIMD void draw_mesh(const Caster& mesh, std::span<const MapPoint> points, const Band& band) {
+  mesh.opacity < 1.0F ? draw_triangles<true>(mesh, points, band) : draw_triangles<false>(mesh, points, band);
 }
 
 /// A mesh in front of a light: its triangles that are in front as a whole, and parts of the others.
@@ -200,18 +212,20 @@ SeenCaster seen_from_light(const Caster& mesh, const Mat4& clip_from_world, int 
 }  // namespace
 
 void draw_sky_depths(const FrameBlock& frame, std::span<const Caster> meshes, int size,
-                     std::vector<DepthMap>& maps, bool from_below) {
+                     std::vector<DepthMap>& maps, std::vector<DepthMap>* from_below) {
   maps.resize(frame.sky.size());
+  if (from_below != nullptr) from_below->resize(maps.size());
   tbb::parallel_for(std::size_t{0}, maps.size(), [&](std::size_t i) {
     const SkyDirectionBlock& sky = frame.sky[i];
-    DepthMap& map = maps[i];
-    map.assign(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), no_depth);
+    const std::size_t texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+    maps[i].assign(texels, no_depth);
+    if (from_below != nullptr) (*from_below)[i].assign(texels, no_depth);
+    const Band band = {maps[i].data(), from_below != nullptr ? (*from_below)[i].data() : nullptr, size, 0,
+                       size};
     const float half = 0.5F * static_cast<float>(size);
-    const float towards = from_below ? -1.0F : 1.0F;
-    const Vec3 x_axis = towards * half * frame.sky_map[3] * sky.right.head<3>();
+    const Vec3 x_axis = half * frame.sky_map[3] * sky.right.head<3>();
     const Vec3 y_axis = half * frame.sky_map[3] * sky.up.head<3>();
-    const Vec3 z_axis =
-        -0.5F * towards * static_cast<float>(no_depth) * frame.sky_map[3] * sky.direction.head<3>();
+    const Vec3 z_axis = -0.5F * static_cast<float>(no_depth) * frame.sky_map[3] * sky.direction.head<3>();
     const Vec3 middle = frame.sky_map.head<3>();
     std::vector<MapPoint> points;
     for (const Caster& mesh : meshes) {
@@ -222,7 +236,7 @@ void draw_sky_depths(const FrameBlock& frame, std::span<const Caster> meshes, in
         points.push_back({d.dot(x_axis) + half, d.dot(y_axis) + half,
                           d.dot(z_axis) + 0.5F * static_cast<float>(no_depth)});
       }
-      draw_mesh(mesh, points, {map.data(), size, 0, size});
+      draw_mesh(mesh, points, band);
     }
   });
 }
@@ -247,7 +261,7 @@ void draw_light_depths(std::span<const Mat4> clip_from_world, std::span<const Ca
       Caster mesh = caster.mesh;
       if (!caster.triangles.empty()) mesh.triangles = caster.triangles;
       if (!caster.points.empty())
-        draw_mesh(mesh, caster.points, {map.data(), size, band * rows, (band + 1) * rows});
+        draw_mesh(mesh, caster.points, {map.data(), nullptr, size, band * rows, (band + 1) * rows});
     }
   });
 }

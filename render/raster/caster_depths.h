@@ -21,10 +21,10 @@ struct Caster {
 // Depth maps are drawn on the CPU: OpenGL would set up triangles that are hardly larger than a texel one by
 // one, on one thread, and its maps would have to be read back. The same bits on every processor.
 
-/// One parallel depth map a direction of the frame's sky, fitted (FrameBlock::sky_map); from below: seen the
-/// other way, with right and left and near and far exchanged.
+/// One parallel depth map a direction of the frame's sky, fitted (FrameBlock::sky_map), and one of the same
+/// texels seen the other way, its depths from the far end, where it is asked for.
 void draw_sky_depths(const FrameBlock&, std::span<const Caster>, int size, std::vector<DepthMap>&,
-                     bool from_below = false);
+                     std::vector<DepthMap>* from_below = nullptr);
 
 /// One map a light in perspective, depths from near to far; what is nearer than near is cut off. `size` is a
 /// multiple of 256.

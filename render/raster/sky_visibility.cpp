@@ -71,7 +71,6 @@ LAGOMORPH_INLINE void add_hidden(const DepthMap::value_type* map, const DepthMap
     std::int32_t nearest = no_depth;
     for (Index i = 0; i < depth.size(); ++i) nearest = std::min(nearest, depth[i]);
     if (nearest == no_depth) return;
-    for (Index i = 0; i < at.size(); ++i) at[i] ^= last;  // mirrored in its row: the size is a power of two
     look_up(from_below, at.data(), at.size(), below.data());
   }
   for (int corner = 0; corner < batch; ++corner) {

@@ -46,13 +46,13 @@ TEST(SkyDepths, OfABallAreItsHeightTowardsTheSky) {
   }
 }
 
-TEST(SkyDepths, FromBelowAreThoseOfTheOtherSideMirrored) {
+TEST(SkyDepths, FromBelowAreThoseOfTheOtherSide) {
   const Vec3 center(0.3F, 1.0F, -0.2F);
   const Mesh ball = sphere(center + Vec3(0.2F, 0.1F, 0.3F), 0.4F, 96);
   const std::vector<Caster> casters = {{ball.positions, ball.triangles, true, 1.0F, 0}};
   const FrameBlock frame = frame_around(center, 1.0F);
-  std::vector<DepthMap> maps;
-  draw_sky_depths(frame, casters, size, maps, true);
+  std::vector<DepthMap> from_above, maps;
+  draw_sky_depths(frame, casters, size, from_above, &maps);
   for (std::size_t i = 0; i < maps.size(); ++i) {
     const SkyDirectionBlock& sky = frame.sky[i];
     const Vec3 off(0.2F, 0.1F, 0.3F);
@@ -61,7 +61,7 @@ TEST(SkyDepths, FromBelowAreThoseOfTheOtherSideMirrored) {
     for (int y = 0; y < size; ++y) {
       for (int x = 0; x < size; ++x) {
         const float across = std::hypot(middle_of(x) - right, middle_of(y) - up);
-        const std::uint16_t depth = maps[i][static_cast<std::size_t>(y * size + size - 1 - x)];
+        const std::uint16_t depth = maps[i][static_cast<std::size_t>(y * size + x)];
         if (across > 0.401F) {
           EXPECT_EQ(depth, no_depth);
         } else if (across < 0.38F) {
