@@ -64,7 +64,7 @@ void put_sky(const Lanes3& seen, const PixelRectangle& at, int x, int y, std::ve
   }
 }
 
-enum class Sky { left_out, diffuse, mirrored_too };
+enum class Sky { left_out, diffuse, mirrored_too, softly };
 
 /// What is asked for of the pixels of a part, and where it goes; rectangles count from `lit.at`.
 struct Lighting {
@@ -73,6 +73,11 @@ struct Lighting {
   Sky sky;
   LitPixels& lit;
 };
+
+void find_sky(const Lighting& l, const Receivers& receivers, SkySeen& seen) {
+  l.sky == Sky::softly ? sky_seen_softly(l.frame, l.maps, receivers, seen)
+                       : sky_seen(l.frame, l.maps, receivers, seen);
+}
 
 /// Calls to(light, seen) for each: the parts that soft_shadow() finds.
 template <class To>
@@ -99,7 +104,7 @@ CoarseParts<N> parts_of_cells(const Lighting& l, const ReceiverBlocks& cells, in
     cells.for_each([&](int x, int y, const Receivers& r) {
       if (y < block_height) return;  // nobody's neighbour to the right or above
       SkySeen seen;
-      sky_seen(l.frame, l.maps, r, seen);
+      find_sky(l, r, seen);
       const auto put = [&](std::size_t first, const Lanes3& of) {
         for (int lane = 0; lane < lanes; ++lane) {
           const Vec3 v = of.at(lane);
@@ -145,7 +150,7 @@ void light_each_pixel(const Lighting& l, const PixelRectangle& part, const Recei
   if (l.sky == Sky::left_out) return;
   for_inner_blocks([&](int, int, int to_x, int to_y, const Receivers& r) {
     SkySeen seen;
-    sky_seen(l.frame, l.maps, r, seen);
+    find_sky(l, r, seen);
     put_sky(seen.diffuse, l.lit.at, to_x, to_y, l.lit.diffuse);
     if (l.sky == Sky::mirrored_too) put_sky(seen.mirrored, l.lit.at, to_x, to_y, l.lit.mirrored);
   });
@@ -327,18 +332,16 @@ void light_ground_map(const FrameBlock& frame, const DepthMaps& maps, LitPixels&
   lit.lights.assign(area(lit.at), whole);
   lit.diffuse.resize(area(lit.at));
   lit.mirrored.clear();
-  const Lighting lighting{frame, maps, Sky::left_out, lit};
+  constexpr std::size_t parts = first_sky + 3;
   for_bands(size, size, [&](const PixelRectangle& band) {
-    const ReceiverBlocks receivers = receivers_around(
-        band, 1, [&](int x, int y, Receivers& r) { return ground_map_receivers(frame, x, y, r); });
-    light_each_pixel(lighting, band, receivers);
-    receivers.for_each([&](int x, int y, const Receivers& r) {
-      const int px = x - block_width, py = y - block_height;
-      if (px < 0 || py < 0 || px >= band.width || py >= band.height) return;
-      SkySeen seen;
-      sky_seen_softly(frame, maps, r, seen);
-      put_sky(seen.diffuse, lit.at, band.x + px, band.y + py, lit.diffuse);
-    });
+    const auto receivers = [&](int x, int y, int step, Receivers& r) {
+      return ground_map_receivers(frame, band.x + x, band.y + y, step, r);
+    };
+    const auto shared = [](int, int, const CoarseParts<parts>& cells, int at_x, int at_y,
+                           std::array<float, parts>& seen) {
+      return cells.find(at_x, at_y, 0.0F, Vec3::UnitY(), 1.0F, seen) ? Found::yes : Found::no;
+    };
+    light_part<parts>({frame, maps, Sky::softly, lit}, band, surface_step, receivers, shared);
   });
 }
 

@@ -101,13 +101,13 @@ bool ground_receivers(const FrameBlock& frame, int x, int y, int step, Receivers
   return any;
 }
 
-bool ground_map_receivers(const FrameBlock& frame, int x, int y, Receivers& r) {
+bool ground_map_receivers(const FrameBlock& frame, int x, int y, int step, Receivers& r) {
   const Vec4& map = frame.ground_map;
   for (int lane = 0; lane < lanes; ++lane) {
     clear(r, lane);
-    const Vec2 at =
-        Vec2(static_cast<float>(x + column(lane)) + 0.5F, static_cast<float>(y + row(lane)) + 0.5F) /
-        frame.counts[3];
+    const Vec2 at = Vec2(static_cast<float>(x + step * column(lane)) + 0.5F,
+                         static_cast<float>(y + step * row(lane)) + 0.5F) /
+                    frame.counts[3];
     put_ground(r, lane, Vec3((at.x() - map[2]) / map[0], frame.ground.x(), (at.y() - map[3]) / map[0]), 1.0F,
                map[1]);
   }

@@ -64,6 +64,6 @@ bool ground_receivers(const FrameBlock&, int x, int y, int step, Receivers&);
 bool surface_receivers(const FrameBlock&, bool with_mirrored, const SurfaceTexels&, int x, int y, int step,
                        Receivers&);
 /// Of the ground's map, all.
-bool ground_map_receivers(const FrameBlock&, int x, int y, Receivers&);
+bool ground_map_receivers(const FrameBlock&, int x, int y, int step, Receivers&);
 
 }  // namespace lagomorph::render::raster
