@@ -83,7 +83,22 @@ struct DepthPlane {
   }
 };
 
-constexpr int texels_at_once = 16;
+constexpr int small = 4;  // texels along a side of the square that all of is tried at once
+constexpr int texels_at_once = small * small;
+
+/// Of sixteen texels from the first.
+struct alignas(64) TexelOffsets {
+  std::array<float, texels_at_once> x, y;
+};
+constexpr TexelOffsets texel_offsets(int width) {
+  TexelOffsets by{};
+  for (int t = 0; t < texels_at_once; ++t) {
+    by.x[static_cast<std::size_t>(t)] = static_cast<float>(t % width);
+    by.y[static_cast<std::size_t>(t)] = static_cast<float>(t / width);
+  }
+  return by;
+}
+constexpr TexelOffsets in_a_square = texel_offsets(small), in_a_row = texel_offsets(texels_at_once);
 
 /// A triangle of positive area into a map of the band's rows.
 template <bool dotted>
@@ -103,30 +118,50 @@ LAGOMORPH_INLINE void put_triangle(const Dots& dots, const MapPoint& a, const Ma
   if (y0 > y1 || x0 > x1) return;
   const Edge of_a(b, c), of_b(c, a), of_c(a, b);
   const DepthPlane plane(a, b, c, area);
-  const auto put = [&](std::uint16_t* row, int x, float py, int y) {
-    const float px = static_cast<float>(x) + 0.5F;
-    const int inside = static_cast<int>(of_a.at(px, py) >= of_a.least) &
-                       static_cast<int>(of_b.at(px, py) >= of_b.least) &
-                       static_cast<int>(of_c.at(px, py) >= of_c.least);
-    const std::uint16_t depth = plane.at(px, py);
-    if constexpr (dotted) {
-      if (inside == 0 || !dots.at(x, y)) return;
-      row[x] = std::min(row[x], depth);
-    } else {
-      const std::uint16_t there = row[x];
-      const std::uint16_t nearer = std::min(there, depth);
-      row[x] = inside != 0 ? nearer : there;
+  const auto inside = [&](float px, float py) {
+    return static_cast<int>(of_a.at(px, py) >= of_a.least) & static_cast<int>(of_b.at(px, py) >= of_b.least) &
+           static_cast<int>(of_c.at(px, py) >= of_c.least);
+  };
+  const auto row_of = [&](int y) {
+    return map + static_cast<std::size_t>(y) * static_cast<std::size_t>(band.size);
+  };
+  if constexpr (dotted) {
+    for (int y = y0; y <= y1; ++y) {
+      std::uint16_t* row = row_of(y);
+      for (int x = x0; x <= x1; ++x) {
+        const float px = static_cast<float>(x) + 0.5F, py = static_cast<float>(y) + 0.5F;
+        if (inside(px, py) != 0 && dots.at(x, y)) row[x] = std::min(row[x], plane.at(px, py));
+      }
+    }
+    return;
+  }
+  // Sixteen texels at once, each `by` the first: their depths, no_depth outside.
+  constexpr std::size_t lanes = texels_at_once;
+  const auto find = [&](const TexelOffsets& by, int x, int y, std::array<std::int32_t, lanes>& depth) {
+    const float left = static_cast<float>(x) + 0.5F, lower = static_cast<float>(y) + 0.5F;
+    for (std::size_t t = 0; t < lanes; ++t) {
+      const float px = left + by.x[t], py = lower + by.y[t];
+      const std::int32_t there = plane.at(px, py);
+      depth[t] = inside(px, py) != 0 ? there : no_depth;
     }
   };
+  const auto put = [](const std::int32_t* from, std::uint16_t* row, std::size_t count) {
+    for (std::size_t t = 0; t < count; ++t)
+      row[t] = static_cast<std::uint16_t>(std::min(static_cast<std::int32_t>(row[t]), from[t]));
+  };
+  alignas(64) std::array<std::int32_t, lanes> depth;
+  if (x1 - x0 < small && y1 - y0 < small && x0 + small <= band.size) {
+    // Most triangles are hardly larger than a texel.
+    find(in_a_square, x0, y0, depth);
+    const std::int32_t* from = depth.data();
+    for (int y = y0; y <= y1; ++y, from += small) put(from, row_of(y) + x0, small);
+    return;
+  }
+  constexpr int width = lanes;
   for (int y = y0; y <= y1; ++y) {
-    const float py = static_cast<float>(y) + 0.5F;
-    std::uint16_t* row = map + static_cast<std::size_t>(y) * static_cast<std::size_t>(band.size);
-    if (dotted || x1 - x0 < texels_at_once / 4) {
-      for (int x = x0; x <= x1; ++x) put(row, x, py, y);
-    } else {
-      for (int block = x0 / texels_at_once * texels_at_once; block <= x1; block += texels_at_once) {
-        for (int l = 0; l < texels_at_once; ++l) put(row, block + l, py, y);
-      }
+    for (int x = x0 / width * width; x <= x1; x += width) {
+      find(in_a_row, x, y, depth);
+      put(depth.data(), row_of(y) + x, lanes);
     }
   }
 }
@@ -243,7 +278,7 @@ void draw_sky_depths(const FrameBlock& frame, std::span<const Caster> meshes, in
 
 void draw_light_depths(std::span<const Mat4> clip_from_world, std::span<const Caster> meshes, int size,
                        std::vector<DepthMap>& maps) {
-  constexpr int bands = 8;
+  constexpr int bands = 4;
   maps.resize(clip_from_world.size());
   std::vector<SeenCaster> seen(clip_from_world.size() * meshes.size());
   tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {

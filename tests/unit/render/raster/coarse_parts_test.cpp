@@ -1,0 +1,80 @@
+#include "render/raster/coarse_parts.h"
+
+#include <array>
+
+#include <gtest/gtest.h>
+
+namespace lagomorph::render::raster {
+namespace {
+
+constexpr int step = 4;
+using Cells = CoarseParts<1>;
+
+/// One block of cells of a plane at depth 1 that looks at the viewer; cells from `edge` on are of another.
+ReceiverBlocks cells_of_a_plane(int edge = block_width, const Vec3& other_normal = Vec3::UnitZ(),
+                                float other_depth = 1.0F) {
+  ReceiverBlocks cells;
+  cells.resize(1, 1);
+  cells.empty[0] = 0;
+  for (int lane = 0; lane < lanes; ++lane) {
+    const auto l = static_cast<std::size_t>(lane);
+    const bool other = column(lane) >= edge;
+    cells.blocks[0].there[l] = 1;
+    cells.blocks[0].normal.set(lane, other ? other_normal : Vec3::UnitZ());
+    cells.blocks[0].depth[l] = other ? other_depth : 1.0F;
+  }
+  return cells;
+}
+
+/// Parts by the cell's column.
+Cells filled(const ReceiverBlocks& receivers, const std::array<float, block_width>& parts) {
+  Cells cells(receivers, step);
+  for (int y = 0; y < block_height; ++y) {
+    for (int x = 0; x < block_width; ++x) cells.at(x, y)[0] = parts[static_cast<std::size_t>(x)];
+  }
+  cells.finish(receivers);
+  return cells;
+}
+
+float found(const Cells& cells, int x, float depth = 1.0F, const Vec3& normal = Vec3::UnitZ()) {
+  Cells::Parts seen;
+  return cells.find(x, 1, depth, normal, 0.1F, seen) ? seen[0] : -1.0F;
+}
+
+TEST(CoarseParts, AreBilinearBetweenCells) {
+  const Cells cells = filled(cells_of_a_plane(), {0.5F, 0.58F, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F});
+  EXPECT_FLOAT_EQ(found(cells, 0), 0.5F);
+  EXPECT_FLOAT_EQ(found(cells, 1), 0.52F);
+  EXPECT_FLOAT_EQ(found(cells, 4), 0.58F);
+  EXPECT_FLOAT_EQ(found(cells, 7), 0.52F);
+}
+
+TEST(CoarseParts, WhereAllIsSeenAreOpen) {
+  const Cells cells = filled(cells_of_a_plane(), {1.0F, 1.0F, 1.0F, 0.95F, 1.0F, 1.0F, 1.0F, 1.0F});
+  EXPECT_TRUE(cells.is_open(3, 0));
+  EXPECT_FALSE(cells.is_open(2 * step, 0));  // its neighbour is not
+  EXPECT_EQ(found(cells, 3), 1.0F);
+}
+
+TEST(CoarseParts, DoNotSayWhatANarrowEdgeHides) {
+  const Cells cells = filled(cells_of_a_plane(), {1.0F, 1.0F, 1.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F});
+  EXPECT_EQ(found(cells, step), 1.0F);
+  for (int x = 2 * step; x < 3 * step; ++x) EXPECT_EQ(found(cells, x), -1.0F);
+  EXPECT_EQ(found(cells, 3 * step), 0.0F);
+}
+
+TEST(CoarseParts, AreThoseOfTheOwnSurface) {
+  const std::array<float, block_width> parts = {0.5F, 0.5F, 0.58F, 0.58F, 0.58F, 0.58F, 0.58F, 0.58F};
+  for (const ReceiverBlocks& receivers :
+       {cells_of_a_plane(2, Vec3::UnitX()), cells_of_a_plane(2, Vec3::UnitZ(), 2.0F)}) {
+    const Cells cells = filled(receivers, parts);
+    const Vec3 other = receivers.blocks[0].normal.at(lanes - 1);
+    const float depth = receivers.blocks[0].depth[lanes - 1];
+    EXPECT_FLOAT_EQ(found(cells, 6), 0.5F);
+    EXPECT_FLOAT_EQ(found(cells, 6, depth, other), 0.58F);
+    EXPECT_EQ(found(cells, 6, 5.0F), -1.0F);  // of neither
+  }
+}
+
+}  // namespace
+}  // namespace lagomorph::render::raster
