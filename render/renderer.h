@@ -48,6 +48,9 @@ public:
   virtual void set_previous(int /*mesh*/, std::span<const Vec3> /*positions*/) {}
   /// Draws "color" (linear) and every channel of settings.channels. The camera's size is the picture's.
   virtual Image render(const Camera&, const FrameInfo&) = 0;
+  /// What render() has taken so far to read what was drawn from the device to memory [s]; 0 where there is
+  /// none.
+  virtual double seconds_reading_back() const { return 0.0; }
   /// Library versions, device, instruction set: what the pixels' bits depend on. For run.json.
   virtual std::string description() const = 0;
 };

@@ -22,6 +22,8 @@ std::string_view to_string(Stage stage) {
       return "surface";
     case Stage::draw:
       return "draw";
+    case Stage::read_back:
+      return "read_back";
     case Stage::overlays:
       return "overlays";
     case Stage::encode:

@@ -20,11 +20,12 @@ enum class Stage {
   solve,          // substitutions, conjugate gradients
   simulation,     // a frame's state, with all of the above
   // a picture,
-  surface,   // positions and fields of what is drawn
-  draw,      // the renderer
-  overlays,  // colours to eight bits, captions, glyphs, lines
-  encode,    // PNG, EXR, .npy
-  write,     // files and their hashes
+  surface,    // positions and fields of what is drawn
+  draw,       // the renderer, but for
+  read_back,  // what it drew from the device to memory
+  overlays,   // colours to eight bits, captions, glyphs, lines
+  encode,     // PNG, EXR, .npy
+  write,      // files and their hashes
   // and the three threads' waiting for each other.
   wait_to_simulate,
   wait_to_draw,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <semaphore>
@@ -62,9 +64,16 @@ DrawnFrame draw(const PipelineInput& in, StateFrame frame) {
     const sim::Timed timed(sim::Stage::surface);
     move_meshes(*in.renderer, in.surfaces, q, motion ? &*motion : nullptr);
   }
-  const sim::Timed timed(sim::Stage::draw);
+  const double read_before = in.renderer->seconds_reading_back();
+  const Stopwatch drawing;
   drawn.image =
       in.views.draw(*in.renderer, {drawn.of.job.frame, drawn.of.state.t}, q, motion ? &*motion : nullptr);
+  const auto add = [](sim::Stage stage, double seconds) {
+    sim::profile().add(stage, std::chrono::nanoseconds(std::llround(1e9 * seconds)));
+  };
+  const double reading = in.renderer->seconds_reading_back() - read_before;
+  add(sim::Stage::draw, drawing.seconds() - reading);
+  if (reading > 0.0) add(sim::Stage::read_back, reading);
   drawn.seconds = watch.seconds();
   return drawn;
 }

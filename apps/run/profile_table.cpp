@@ -34,7 +34,7 @@ const std::array<Lane, 3>& lanes() {
             Stage::solve},
            Stage::simulation,
            Stage::wait_to_simulate},
-      Lane{"drawing", {Stage::surface, Stage::draw}, std::nullopt, Stage::wait_to_draw},
+      Lane{"drawing", {Stage::surface, Stage::draw, Stage::read_back}, std::nullopt, Stage::wait_to_draw},
       Lane{"writing", {Stage::overlays, Stage::encode, Stage::write}, std::nullopt, Stage::wait_to_write}};
   return all;
 }

@@ -72,6 +72,7 @@ public:
   void update_colors(int mesh, std::span<const Color> colors) override;
   void set_previous(int mesh, std::span<const Vec3> positions) override;
   Image render(const Camera&, const FrameInfo&) override;
+  double seconds_reading_back() const override { return seconds_reading_; }
   std::string description() const override;
 
 private:
@@ -138,7 +139,8 @@ private:
   std::vector<SurfaceTexel> surfaces_;  // the first layer's
   LitPixels lit_;                       // likewise
   bool lights_are_stale_ = true;
-  bool has_ground_ = false;  // the scene; scene_ has it where it is drawn
+  double seconds_reading_ = 0.0;  // of all targets
+  bool has_ground_ = false;       // the scene; scene_ has it where it is drawn
 };
 
 SurfaceBlock surface_block(const Material& material, float thickness) {
@@ -288,6 +290,7 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
     targets.reset();
     targets.emplace(camera.width(), camera.height(), raster_.multisample, gl_->has_colors);
   }
+  const double read_before = targets->seconds_reading();
   if (lights_are_stale_) gl_->maps.fit(scene_, positions_, gl_->meshes, block_);
   const Mat4 clip_before =
       upload_frame(camera, frame.camera_before != nullptr ? *frame.camera_before : camera);
@@ -331,6 +334,7 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
     if (wants(channel)) image.add(channel, channel_kind(channel).components);
   }
   if (image.channels().size() > channels) draw_data(image, clip_before);
+  seconds_reading_ += targets->seconds_reading() - read_before;
   check_gl("drawing a frame");
   return image;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstddef>
 
 #include <tbb/blocked_range.h>
@@ -83,12 +84,20 @@ void Targets::bind_surface_texture() const {
   glBindTexture(GL_TEXTURE_2D, surface_.id());
 }
 
-void Targets::read_surface(const PixelRectangle& r, std::vector<SurfaceTexel>& texels) const {
+/// Of the framebuffer that is bound to be read.
+void Targets::read(const PixelRectangle& r, GLenum format, GLenum type, void* to) {
+  glFinish();
+  const auto start = std::chrono::steady_clock::now();
+  glReadPixels(r.x, r.y, r.width, r.height, format, type, to);
+  seconds_reading_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Targets::read_surface(const PixelRectangle& r, std::vector<SurfaceTexel>& texels) {
   texels.assign(static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height), {});
   const PixelRectangle there = common_rectangle(r, {0, 0, width_, height_});
   glBindFramebuffer(GL_READ_FRAMEBUFFER, surface_target_.id());
   glPixelStorei(GL_PACK_ROW_LENGTH, r.width);
-  glReadPixels(there.x, there.y, there.width, there.height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, texels.data());
+  read(there, GL_RGBA_INTEGER, GL_UNSIGNED_INT, texels.data());
   glPixelStorei(GL_PACK_ROW_LENGTH, 0);
 }
 
@@ -167,7 +176,7 @@ void Targets::read_color_over(const PixelRectangle& r, std::span<float> color) {
   const auto across = static_cast<std::size_t>(r.width), width = static_cast<std::size_t>(width_);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, color_target_.id());
   pixels_.resize(4 * across * static_cast<std::size_t>(r.height));
-  glReadPixels(r.x, r.y, r.width, r.height, GL_RGBA, GL_FLOAT, pixels_.data());
+  read(r, GL_RGBA, GL_FLOAT, pixels_.data());
   tbb::parallel_for(tbb::blocked_range<int>(0, r.height, 32), [&](const auto& rows) {
     for (int row = rows.begin(); row != rows.end(); ++row) {
       const float* in = pixels_.data() + 4 * across * static_cast<std::size_t>(row);
@@ -183,7 +192,7 @@ void Targets::read_color_over(const PixelRectangle& r, std::span<float> color) {
 void Targets::read_values(std::vector<float>& values) {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, depth_target_.id());
   pixels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  glReadPixels(0, 0, width_, height_, GL_RED, GL_FLOAT, pixels_.data());
+  read({0, 0, width_, height_}, GL_RED, GL_FLOAT, pixels_.data());
   copy_rows(pixels_, 1, 1, width_, height_, values);
 }
 

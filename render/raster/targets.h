@@ -36,7 +36,7 @@ public:
   /// Binds those as the texture that the shaders read.
   void bind_surface_texture() const;
   /// Those of a rectangle, which may reach beyond the picture; nothing is there.
-  void read_surface(const PixelRectangle&, std::vector<SurfaceTexel>&) const;
+  void read_surface(const PixelRectangle&, std::vector<SurfaceTexel>&);
   /// Makes what was found of lights and sky the texture that the shaders read.
   void take(const LitPixels& lit) const { lit_.take(lit); }
   /// Binds a channel of one value a pixel, with the picture's depth buffer.
@@ -52,6 +52,8 @@ public:
   void bind_peeled_color() const;
   void bind_peeled_color_texture() const;
 
+  /// What the functions that read have taken so far, without what was still to be drawn before them [s].
+  double seconds_reading() const { return seconds_reading_; }
   /// A rectangle of that picture over a linear colour, interleaved, rows from the top.
   void read_color_over(const PixelRectangle&, std::span<float> color);
   /// The channel of one value a pixel, likewise.
@@ -59,6 +61,7 @@ public:
 
 private:
   GLenum sampled() const { return samples_ > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D; }
+  void read(const PixelRectangle&, GLenum format, GLenum type, void* to);
   void attach_samples(const Texture&, GLenum format, GLenum attachment) const;
   void attach_seen(const Texture& seen, const Texture* colors, const Renderbuffer& depth) const;
 
@@ -82,6 +85,7 @@ private:
   Framebuffer seen_target_, color_target_, surface_target_, depth_target_;
   std::optional<Peels> peels_;
   bool has_depth_channel_ = false;
+  double seconds_reading_ = 0.0;
   std::vector<float> pixels_;
 };
 
