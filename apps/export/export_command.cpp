@@ -137,7 +137,12 @@ ExitStatus export_command(const Options& options) {
   const StatesOfRun states(run, info.identity, scene.time.frames);
   const FrameRange frames = options.frames ? wanted_frames(options.frames, scene.time.frames) : states.all();
   states.require(frames);
-  if (options.color_frame) states.require({*options.color_frame, *options.color_frame});
+  if (options.color_frame) {
+    const int frame = *options.color_frame;
+    if (frame < 0 || frame >= scene.time.frames)
+      wrong_input(fmt::format("--color-frame {}: the scene has frames 0..{}", frame, scene.time.frames - 1));
+    states.require({frame, frame});
+  }
   const sim::Model model = build_model(scene, progress);
   const auto state = [&](int frame) {
     return read_state(run.state(frame), frame, scene.time.fps, model.mesh().vertex_count());

@@ -16,11 +16,12 @@ std::vector<std::string> remarks(const ExportedScene& scene, const char* format,
     const BodyDesc& body = scene.desc.body[i];
     std::vector<std::string> what = lost(body.look);
     if (has_cloudy_inside(body.look)) what.emplace_back("subsurface (an opaque base of subsurface_color)");
-    if (body.shown.field != "none" && scene.colors.empty())
-      what.push_back("the colours of " + body.shown.field);
+    const bool colors = body.shown.field != "none" && scene.colors.empty();
+    if (colors) what.push_back("the colours of " + body.shown.field);
     if (!what.empty())
       lines.push_back(fmt::format("{}: {} of body '{}' {} left out", format, fmt::join(what, ", "),
-                                  scene.model.mesh().bodies[i].name, what.size() == 1 ? "is" : "are"));
+                                  scene.model.mesh().bodies[i].name,
+                                  what.size() == 1 && !colors ? "is" : "are"));
   }
   return lines;
 }

@@ -276,6 +276,7 @@ ExitStatus make_all(Production& p, RunResult& result, Progress& progress) {
     if (!video) return stop_status();
     result.video = video->record.file;
     result.video_made = video->made;
+    result.video_replaced = video->replaced;
     info.video = std::move(video->record);
     gather(p.paths, info, p.scene.time.frames);
   }

@@ -42,6 +42,12 @@ std::string milliseconds(double seconds) { return fmt::format("{:.3g} ms", 1000.
 
 std::string counted(int n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
 
+/// What is said of a video that was made.
+std::string video_text(const RunResult& result) {
+  return "; made " + result.video +
+         (result.video_replaced.empty() ? "" : " in place of " + result.video_replaced);
+}
+
 }  // namespace
 
 std::string result_json(const RunResult& result) {
@@ -66,8 +72,7 @@ std::string result_text(const RunResult& result) {
   const std::string frames = counted(result.frames, "frame");
   if (result.states_made + result.pictures_made == 0) {
     const std::string there = fmt::format("{} {} there and match", frames, result.frames == 1 ? "is" : "are");
-    return text +
-           (result.video_made ? fmt::format("{}; made {}", there, result.video) : "nothing to do: " + there);
+    return text + (result.video_made ? there + video_text(result) : "nothing to do: " + there);
   }
   const MeanSeconds mean = mean_seconds(result.records);
   text += fmt::format("{} in {}", frames, duration_text(result.seconds));
@@ -83,7 +88,7 @@ std::string result_text(const RunResult& result) {
     text += fmt::format("; {} drawn, {} each and {} to write", counted(result.pictures_made, "picture"),
                         milliseconds(mean.rendering), milliseconds(mean.writing));
   }
-  if (result.video_made) text += "; made " + result.video;
+  if (result.video_made) text += video_text(result);
   return text;
 }
 

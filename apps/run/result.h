@@ -21,6 +21,7 @@ struct RunResult {
   std::map<int, FrameRecord> records;  // of the whole run
   std::string video;                   // file in the run; empty: none
   bool video_made = false;             // this time
+  std::string video_replaced;          // file that it took the place of; empty: none
 };
 
 /// One JSON object on one line.

@@ -75,11 +75,16 @@ std::optional<VideoUpdate> update_video(const RunPaths& paths, const SceneDesc& 
   while (has_picture(records, job.first - job.every)) job.first -= job.every;
   while (has_picture(records, job.last + job.every)) job.last += job.every;
   VideoRecord wanted{job.output.filename().string(), job.first, job.last, source_hash(job, records), ""};
-  if (there && is_up_to_date(paths, *there, wanted)) return VideoUpdate{*there, false};
+  if (there && is_up_to_date(paths, *there, wanted)) return VideoUpdate{*there, false, ""};
   if (!make_video(job, stop)) return std::nullopt;
-  if (there && there->file != wanted.file) remove_file(paths.root() / fs::path(there->file).filename());
+  // A run has one video: another would stay behind when the pictures change.
+  std::string replaced;
+  if (there && there->file != wanted.file) {
+    replaced = fs::path(there->file).filename().string();
+    remove_file(paths.root() / replaced);
+  }
   wanted.sha256 = sha256_file(job.output);
-  return VideoUpdate{std::move(wanted), true};
+  return VideoUpdate{std::move(wanted), true, std::move(replaced)};
 }
 
 }  // namespace lagomorph::apps

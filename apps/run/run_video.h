@@ -15,7 +15,8 @@ namespace lagomorph::apps {
 
 struct VideoUpdate {
   VideoRecord record;
-  bool made = false;  // false: it was up to date
+  bool made = false;     // false: it was up to date
+  std::string replaced;  // file that went; empty: none
 };
 
 /// Brings RUN/<name> with the codec's extension up to date: of all pictures around `frames` that have no gap

@@ -31,7 +31,7 @@ Brdf::Brdf(const Material& m, float base_share) {
 }
 
 Brdf::View Brdf::view(const Vec3& wo, float least_alpha, const Color* base_color) const {
-  const SeenBrdf seen = view_brdf(constants_, f3(wo), least_alpha,
+  const SeenBrdf seen = view_brdf(constants_, coat_albedo_by_roughness(), f3(wo), least_alpha,
                                   base_color == nullptr ? constants_.base_color : f3(*base_color));
   return {seen.view, seen.reflectance};
 }
@@ -45,6 +45,23 @@ Brdf::Value Brdf::evaluate(const View& view, const Vec3& wi) const {
 Brdf::Sample Brdf::sample(const View& view, Pair s) const {
   const Vec3 wi = vec3(brdf_direction(view, s.u, s.v));
   return {wi, evaluate(view, wi)};
+}
+
+const CoatAlbedoTable& coat_albedo_by_roughness() {
+  static const CoatAlbedoTable table = [] {
+    using Table = CoatAlbedoTable;
+    Table t{};
+    for (int j = 0; j <= Table::rows; ++j) {
+      const float roughness = std::max(Table::roughest * static_cast<float>(j) / Table::rows, 0.0316F);
+      for (int i = 0; i <= Table::columns; ++i) {
+        const CoatAlbedo a = coat_albedo(static_cast<float>(i) / Table::columns, roughness);
+        t.scale[j * (Table::columns + 1) + i] = a.scale;
+        t.offset[j * (Table::columns + 1) + i] = a.offset;
+      }
+    }
+    return t;
+  }();
+  return table;
 }
 
 Vec3 sample_visible_normal(const Vec3& wo, float alpha, Pair s) {

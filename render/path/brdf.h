@@ -27,7 +27,7 @@ public:
   struct View : BrdfView {
     float reflectance;  // about, in luminance
   };
-  /// `least_alpha`: the coat is taken to be at least as rough, but for what it reflects more than once.
+  /// `least_alpha`, up to 0.5: the coat is taken to be at least as rough, and to reflect as much as it does.
   /// `base_color`: in place of the material's.
   View view(const Vec3& wo, float least_alpha = 0.0F, const Color* base_color = nullptr) const;
 
@@ -59,6 +59,9 @@ private:
   BrdfConstants constants_{};
   float mean_into_base_ = 0.0F;  // 2 int into_base(c) c dc
 };
+
+/// Made when it is asked for first.
+const CoatAlbedoTable& coat_albedo_by_roughness();
 
 /// Visible normals of GGX by spherical caps [Dupuy and Benyoub 2023]; the distribution of [Heitz 2018].
 Vec3 sample_visible_normal(const Vec3& wo, float alpha, Pair);

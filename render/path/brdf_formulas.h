@@ -57,12 +57,36 @@ LAGOMORPH_INLINE float reflected_again(float f0, float mean_lost) {
   return mean * mean * (1.0F - mean_lost) / (1.0F - mean * mean_lost);
 }
 
+/// CoatAlbedo by cosine and roughness, bilinear.
+struct CoatAlbedoTable {
+  static constexpr int rows = 32;
+  static constexpr int columns = CosineTable::intervals;
+  static constexpr float roughest =
+      0.70710678F;  // alpha = 0.5, as far as a surface is drawn rougher than it is
+  float scale[(rows + 1) * (columns + 1)];
+  float offset[(rows + 1) * (columns + 1)];
+};
+LAGOMORPH_INLINE float look_up(const float* table, float cosine, float roughness) {
+  constexpr int rows = CoatAlbedoTable::rows, columns = CoatAlbedoTable::columns;
+  const float x = std::min(cosine, 0x1.fffffep-1F) * columns;
+  const float y = roughness * (rows / CoatAlbedoTable::roughest);
+  const std::int32_t i = std::min(std::max(static_cast<std::int32_t>(x), 0), columns - 1);
+  const std::int32_t j = std::min(std::max(static_cast<std::int32_t>(y), 0), rows - 1);
+  const float px = x - static_cast<float>(i), py = y - static_cast<float>(j);
+  const std::int32_t at = j * (columns + 1) + i, above = at + columns + 1;
+  const float low = table[at] + px * (table[at + 1] - table[at]);
+  return low + py * (table[above] + px * (table[above + 1] - table[above]) - low);
+}
+
 struct SeenBrdf {
   BrdfView view;
   float reflectance;  // about, in luminance
 };
+/// `least_alpha`, up to 0.5: the coat is taken to be at least as rough, and to reflect as much as it does; of
+/// the light from wo, for a rougher one sends more of it into its own facets.
 /// `base_color`: in place of the material's.
-LAGOMORPH_INLINE SeenBrdf view_brdf(const BrdfConstants& m, F3 wo, float least_alpha, F3 base_color) {
+LAGOMORPH_INLINE SeenBrdf view_brdf(const BrdfConstants& m, const CoatAlbedoTable& rougher, F3 wo,
+                                    float least_alpha, F3 base_color) {
   const float dielectric = (1.0F - m.metallic) * m.coat_f0;
   const F3 f0 = F3{dielectric, dielectric, dielectric} + m.metallic * base_color;
   const float f90 = std::min(1.0F, 50.0F * max_of(f0));
@@ -72,11 +96,18 @@ LAGOMORPH_INLINE SeenBrdf view_brdf(const BrdfConstants& m, F3 wo, float least_a
   const F3 again = {reflected_again(base_color.x, m.mean_lost), reflected_again(base_color.y, m.mean_lost),
                     reflected_again(base_color.z, m.mean_lost)};
   const F3 multiple = (m.metallic * lost * inv_pi / std::max(m.mean_lost, 1e-6F)) * again;
-  const float coat = luminance(f0) * look_up(m.scale, cosine) + f90 * look_up(m.offset, cosine);
+  const float scale = look_up(m.scale, cosine), offset = look_up(m.offset, cosine);
+  const float coat = luminance(f0) * scale + f90 * offset;
   const float all = coat + std::numbers::pi_v<float> * luminance(base) + m.metallic * lost * luminance(again);
   const float alpha = std::max(m.alpha, least_alpha);
   const float probability = all > 0.0F ? coat / all : 0.0F;
-  return {{wo, base, multiple, f0, f90, probability, alpha, smith_root(wo, alpha)}, all};
+  const float roughness = std::sqrt(alpha);
+  const bool as_it_is = alpha <= m.alpha;
+  const float by_scale = as_it_is ? 1.0F : scale / std::max(look_up(rougher.scale, cosine, roughness), 1e-6F);
+  const float by_offset =
+      as_it_is ? 1.0F : offset / std::max(look_up(rougher.offset, cosine, roughness), 1e-6F);
+  return {{wo, base, multiple, by_scale * f0, by_offset * f90, probability, alpha, smith_root(wo, alpha)},
+          all};
 }
 
 struct BrdfValue {

@@ -332,7 +332,8 @@ void PathTracer::see_surfaces(std::size_t on_meshes) {
     arrive_on_ground(range, b.surfaces);
     b.ranges.push_back({range, &shading_.ground_brdf().brdf().constants()});
   }
-  for (const SurfaceRange& r : b.ranges) view_surfaces(*r.material, r.range, b.surfaces);
+  const CoatAlbedoTable& rougher = coat_albedo_by_roughness();
+  for (const SurfaceRange& r : b.ranges) view_surfaces(*r.material, rougher, r.range, b.surfaces);
 }
 
 /// A surface with layers becomes a vertex.

@@ -64,7 +64,8 @@ LAGOMORPH_RENDER_SIMD void arrive_on_ground(Range range, SurfaceRows& out) {
   }
 }
 
-LAGOMORPH_RENDER_SIMD void view_surfaces(const BrdfConstants& m, Range range, SurfaceRows& s) {
+LAGOMORPH_RENDER_SIMD void view_surfaces(const BrdfConstants& m, const CoatAlbedoTable& rougher, Range range,
+                                         SurfaceRows& s) {
   LAGOMORPH_ROWS
   for (std::size_t i = range.first; i < range.last; ++i) {
     const F3 n = s.n[i];
@@ -72,8 +73,8 @@ LAGOMORPH_RENDER_SIMD void view_surfaces(const BrdfConstants& m, Range range, Su
     const F3 to_eye = -s.arrival[i];
     const float pdf = s.least_pdf[i];
     const float least_alpha = 0.5F * std::sqrt(std::max(1.0F - pdf, 0.0F));
-    const BrdfView v = view_brdf(m, {dot(to_eye, frame.t), dot(to_eye, frame.b), dot(to_eye, n)}, least_alpha,
-                                 s.base_color[i])
+    const BrdfView v = view_brdf(m, rougher, {dot(to_eye, frame.t), dot(to_eye, frame.b), dot(to_eye, n)},
+                                 least_alpha, s.base_color[i])
                            .view;
     s.t.set(i, frame.t);
     s.b.set(i, frame.b);

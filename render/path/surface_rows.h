@@ -72,7 +72,7 @@ void arrive_on_mesh(const Meetings&, Range, bool smooth, const GroundDisc&, Surf
 /// Of surfaces whose `origin` is the point of the ground and whose arrival is set.
 void arrive_on_ground(Range, SurfaceRows&);
 /// The frame and the view, of arrivals with their normal, base colour and least density.
-void view_surfaces(const BrdfConstants&, Range, SurfaceRows&);
+void view_surfaces(const BrdfConstants&, const CoatAlbedoTable&, Range, SurfaceRows&);
 
 /// Number pairs of surfaces.
 struct PairRows {

@@ -44,6 +44,9 @@ std::vector<std::string> optics_remarks(const RenderScene& scene) {
     add(m.sheen > 0.0F, "sheen is left out");
     if (!what.empty()) remarks.push_back("look of '" + mesh.name + "': " + what);
   }
+  const Material& ground = scene.ground.material;
+  if (scene.ground.enabled && ground.roughness < 0.5F && (ground.metallic > 0.0F || ground.ior > 1.0F))
+    remarks.emplace_back("the ground mirrors lights and sky, and of bodies only that they hide the sky");
   return remarks;
 }
 

@@ -52,6 +52,9 @@ TEST_F(Drafts, AVideoOfEveryOtherPicture) {
   expect(0, run("r", {"--every", "2", "--codec", "gif"}));
   EXPECT_TRUE(fs::exists(at("r") / "bar.gif"));
   EXPECT_EQ(run_json("r").at("video").at("file"), "bar.gif");
+  expect(0, run("r", {"--every", "2", "--codec", "webp"}));
+  EXPECT_TRUE(fs::exists(at("r") / "bar.webp"));
+  EXPECT_FALSE(fs::exists(at("r") / "bar.gif")) << "a run has one video";
 }
 
 /// The pixels of a region are those of the whole picture, and so are its channels and what is written over

@@ -192,17 +192,22 @@ TEST(Brdf, SamplesGiveTheDirectionalAlbedo) {
   }
 }
 
-TEST(Brdf, RoughenedItIsTheRougherMaterial) {
-  const Vec3 wo = direction(0.7, 0.0), wi = direction(0.5, 2.0);
-  const Brdf sharp(material(0.2F, 1.0F)), rough(material(0.6F, 1.0F));
-  const auto once = [&](const Brdf& brdf, float least_alpha) {
-    const Brdf::View view = brdf.view(wo, least_alpha);
-    return brdf.evaluate(view, wi).f_cos.x() -
-           look_up(brdf.constants().lost, wi.z()) * view.multiple.x * wi.z();
-  };
-  EXPECT_NEAR(once(sharp, 0.36F), once(rough, 0.0F), 1e-6F);
-  EXPECT_FLOAT_EQ(rough.evaluate(rough.view(wo, 0.04F), wi).f_cos.x(),
-                  rough.evaluate(rough.view(wo), wi).f_cos.x());
+TEST(Brdf, RoughenedItHasTheRougherLobeAndReflectsAsMuch) {
+  for (const float metallic : {0.0F, 1.0F}) {
+    const Brdf sharp(material(0.2F, metallic)), rough(material(0.6F, metallic));
+    for (const double cosine : {0.2, 0.5, 0.8}) {
+      const Vec3 wo = direction(cosine, 0.0);
+      const auto albedo = [&](const Brdf& brdf, float least_alpha) {
+        const Brdf::View view = brdf.view(wo, least_alpha);
+        return hemisphere([&](const Vec3& wi) { return brdf.evaluate(view, wi).f_cos.y(); });
+      };
+      EXPECT_NEAR(albedo(sharp, 0.36F), albedo(sharp, 0.0F), 3e-3) << metallic << " " << cosine;
+    }
+    const Vec3 wo = direction(0.7, 0.0), wi = direction(0.5, 2.0);
+    EXPECT_FLOAT_EQ(sharp.view(wo, 0.36F).alpha, rough.view(wo).alpha);
+    EXPECT_FLOAT_EQ(rough.evaluate(rough.view(wo, 0.04F), wi).f_cos.x(),
+                    rough.evaluate(rough.view(wo), wi).f_cos.x());
+  }
 }
 
 TEST(Brdf, NoCoatAtAnIndexOfOne) {

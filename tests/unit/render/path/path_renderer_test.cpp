@@ -132,6 +132,20 @@ TEST(PathRenderer, LayersVanishInAWhiteFurnaceToo) {
   }
 }
 
+TEST(PathRenderer, AMatteSphereBesideASmoothOneVanishesInAWhiteFurnace) {
+  CameraSettings camera;
+  camera.position = Vec3(0, 0, 5);
+  camera.look_at = Vec3::Zero();
+  for (const float metallic : {0.0F, 1.0F}) {
+    RenderScene scene = empty_scene();
+    scene.sky = uniform_sky(1.0F);
+    scene.meshes = {make_sphere(4, 1.0F, Vec3::Zero()), make_sphere(4, 40.0F, Vec3(0.0F, -41.0F, 0.0F))};
+    scene.meshes[0].material = lambert(Color::Ones());
+    scene.meshes[1].material = {Color::Ones(), 0.05F, metallic, 1.5F};
+    EXPECT_NEAR(mean_color(draw(scene, camera, settings(32, 32, 64, 32))).y(), 1.0, 2e-3) << metallic;
+  }
+}
+
 TEST(PathRenderer, AGlossySphereHasItsDirectionalAlbedo) {
   // Where the camera looks straight at the sphere, a furnace shows the albedo at normal incidence: by
   // quadrature.

@@ -45,7 +45,7 @@ std::unique_ptr<SurfaceRows> surfaces(const Brdf& brdf) {
     s->n.set(i, f3(n));
     s->arrival.set(i, f3(Vec3(-above(n, random))));
   }
-  view_surfaces(brdf.constants(), {0, count}, *s);
+  view_surfaces(brdf.constants(), coat_albedo_by_roughness(), {0, count}, *s);
   return s;
 }
 
