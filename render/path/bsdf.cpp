@@ -7,6 +7,13 @@
 #include "render/path/sampler.h"
 
 namespace lagomorph::render::path {
+/// Part of the light along a cosine that layers do not let out of the base below, and its mean over the
+/// hemisphere, 2 int L c dc.
+struct LayersLoss {
+  CosineTable at{};
+  float mean = 0.0F;
+};
+
 namespace {
 
 /// What is not clear: of the part 1 - transmission (1 - metallic), so that it weighs as it should.
@@ -21,13 +28,6 @@ Material white_base(Material m) {
   m.base_color = Color::Ones();
   return m;
 }
-
-/// Part of the light along a cosine that layers do not let out of the base below, and its mean over the
-/// hemisphere, 2 int L c dc.
-struct LayersLoss {
-  CosineTable at{};
-  float mean = 0.0F;
-};
 
 /// `loss` of the direction out with a cosine.
 template <typename Loss>
