@@ -56,6 +56,14 @@ public:
   /// look opposite ways the nearer of the two.
   static Camera between(const Camera&, const Camera&, float part);
 
+  /// The same view in a picture so many times as wide and high.
+  Camera enlarged(int factor) const {
+    Camera larger = *this;
+    larger.width_ *= factor;
+    larger.height_ *= factor;
+    return larger;
+  }
+
   /// Ray through the point (px, py) of the picture, in pixels from its top left corner.
   Ray ray(float px, float py) const;
   /// The same through a point of the lens, given in its radii along right and up: all of them meet in the

@@ -244,6 +244,12 @@ void visit_raster(render::RasterSettings& r, KeyVisitor& v) {
          .holds = [](double n) { return n == 1 || n == 4; },
          .rule = "1 or 4"},
         &r.multisample);
+  v.key({.name = "supersample",
+         .bounds = between(1, 4),
+         .meaning =
+             "pictures are drawn so many times as wide and high, then reduced: highlights and textures are "
+             "smooth as well as edges"},
+        &r.supersample);
   v.key({.name = "shadow_map",
          .unit = "pixels",
          .bounds = between(256, 8192),

@@ -23,6 +23,7 @@
 #include "render/raster/shaders/shaders.h"
 #include "render/raster/stand_ins.h"
 #include "render/raster/still_picture.h"
+#include "render/raster/supersampled.h"
 #include "render/raster/targets.h"
 #include "render/raster/view_range.h"
 
@@ -37,6 +38,9 @@ RasterSettings checked(const RasterSettings& s) {
   if (s.multisample != 1 && s.multisample != 4) {
     throw SettingsError("render.raster.multisample = " + std::to_string(s.multisample) +
                         " must be 1 or 4 (the software rasterizer's most)");
+  }
+  if (s.supersample < 1 || s.supersample > 4) {
+    throw SettingsError("render.raster.supersample = " + std::to_string(s.supersample) + " must be in 1..4");
   }
   if (s.shadow_map < 256 || s.shadow_map > 8192 || (s.shadow_map & (s.shadow_map - 1)) != 0) {
     throw SettingsError("render.raster.shadow_map = " + std::to_string(s.shadow_map) +
@@ -561,7 +565,11 @@ std::string RasterRenderer::description() const {
 }  // namespace
 
 std::unique_ptr<Renderer> make_raster_renderer(const RenderSettings& settings, int threads) {
-  return std::make_unique<RasterRenderer>(settings, threads);
+  checked(settings.raster);
+  const auto make = [threads](const RenderSettings& s) -> std::unique_ptr<Renderer> {
+    return std::make_unique<RasterRenderer>(s, threads);
+  };
+  return settings.raster.supersample > 1 ? make_supersampled(settings, make) : make(settings);
 }
 
 }  // namespace lagomorph::render

@@ -127,6 +127,8 @@ TEST(WrongScene, Ranges) {
              "a.toml:2:9: render.width = 20000 is out of range; it must be in 1 .. 16384"},
        Wrong{"[render.raster]\nmultisample = 8",
              "a.toml:2:15: render.raster.multisample = 8 is out of range; it must be 1 or 4"},
+       Wrong{"[render.raster]\nsupersample = 8",
+             "a.toml:2:15: render.raster.supersample = 8 is out of range; it must be in 1 .. 4"},
        Wrong{"[render.raster]\nshadow_map = 1000",
              "a.toml:2:14: render.raster.shadow_map = 1000 is out of range; it must be in 256 .. 8192, a "
              "power of two"},

@@ -141,7 +141,7 @@ TEST(RasterRenderer, WhatIsUnderTheGroundShowsThroughItsFadeOnly) {
 }
 
 /// A white disc on black: the sphere's outline, flat white by a sky of one colour all around.
-Image outline(int multisample) {
+Image outline(int multisample, int supersample = 1, const std::vector<std::string>& channels = {}) {
   RenderScene scene = empty_scene();
   scene.sky = {Color::Ones(), Color::Ones(), 1.0F};
   scene.meshes = {sphere(Vec3::Zero(), 0.5F, 96)};
@@ -152,6 +152,8 @@ Image outline(int multisample) {
   camera.orthographic = 1.25F;
   RenderSettings settings = small_settings(100, 100);
   settings.raster.multisample = multisample;
+  settings.raster.supersample = supersample;
+  settings.channels = channels;
   return draw(scene, camera, settings);
 }
 
@@ -175,6 +177,26 @@ TEST(RasterRenderer, MultisamplingCoversEdgesByQuarters) {
 TEST(RasterRenderer, ASingleSampleIsThereOrNot) {
   const Image image = outline(1);
   for (const float c : values(image, "color")) EXPECT_TRUE(c < 0.01F || c > 0.99F) << c;
+}
+
+TEST(RasterRenderer, SupersamplingCoversEdgesMoreFinely) {
+  const Image image = outline(4, 2, {"depth", "alpha"});
+  EXPECT_EQ(image.width(), 100);
+  double area = 0.0;
+  int between_quarters = 0;
+  for (int y = 0; y < 100; ++y) {
+    for (int x = 0; x < 100; ++x) {
+      const float c = color_at(image, x, y)[0];
+      EXPECT_NEAR(16.0F * c, std::round(16.0F * c), 0.1F) << x << " " << y;
+      between_quarters += std::abs(4.0F * c - std::round(4.0F * c)) > 0.1F ? 1 : 0;
+      area += c;
+    }
+  }
+  EXPECT_GT(between_quarters, 60);
+  EXPECT_NEAR(area, pi * 40.0 * 40.0, 0.002 * pi * 40.0 * 40.0);
+  EXPECT_EQ(values(image, "depth"), values(outline(4, 1, {"depth"}), "depth")) << "of the pixels' centres";
+  const std::vector<float>&alpha = values(image, "alpha"), &color = values(image, "color");
+  for (std::size_t k = 0; k < alpha.size(); ++k) EXPECT_NEAR(alpha[k], color[3 * k], 0.01F);
 }
 
 TEST(RasterRenderer, ABodyBeforeAnotherKeepsBothColoursAtItsEdge) {
@@ -324,6 +346,7 @@ TEST(RasterRenderer, RefusesSettingsOutOfRange) {
   };
   expect_error("multisample = 2", with([](RasterSettings& s) { s.multisample = 2; }));
   expect_error("multisample = 8", with([](RasterSettings& s) { s.multisample = 8; }));
+  expect_error("supersample = 5", with([](RasterSettings& s) { s.supersample = 5; }));
   expect_error("shadow_map = 1000", with([](RasterSettings& s) { s.shadow_map = 1000; }));
   expect_error("shadow_map = 128", with([](RasterSettings& s) { s.shadow_map = 128; }));
   expect_error("shadow_samples = 0", with([](RasterSettings& s) { s.shadow_samples = 0; }));
