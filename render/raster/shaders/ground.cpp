@@ -115,8 +115,8 @@ void main() {
 }
 )";
 
-// On the square of ground under the meshes: the radiance sent up, of squares of two by two of the map's texels, for
-// from above it is seen blurred.
+// On the square of ground under the meshes: the radiance sent up, of squares of two by two of the map's
+// texels, for from above it is seen blurred.
 const char* const ground_map_fragment = R"(
 layout(binding = 1) uniform sampler2DArray seen_of_texel;  // of lights and sky
 layout(location = 0) out vec4 bounce;

@@ -236,8 +236,8 @@ LayerPoint layer_point(Layers l, int layer) {
 )";
 
 // The first layer's surface, for the CPU to find what it sees of the lights and the sky: SurfaceTexel of
-// receivers.h. Point and plane are those of one sample, for the mean of two triangles' is on neither. The number
-// of the pixel's layers is its depth, so that the passes that light them skip all others.
+// receivers.h. Point and plane are those of one sample, for the mean of two triangles' is on neither. The
+// number of the pixel's layers is its depth, so that the passes that light them skip all others.
 const char* const surface_fragment = R"(
 out uvec4 texel;
 void main() {
