@@ -67,7 +67,7 @@ protected:
     map.values.resize(static_cast<std::size_t>(width * height));
     const std::size_t bytes = map.values.size() * sizeof(float);
     EXPECT_GT(file.size(), bytes);
-    std::memcpy(map.values.data(), file.data() + file.size() - bytes, bytes);
+    if (file.size() > bytes) std::memcpy(map.values.data(), file.data() + file.size() - bytes, bytes);
     return map;
   }
 
