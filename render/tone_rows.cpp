@@ -46,7 +46,8 @@ public:
     std::memcpy(bits.data(), x.data(), sizeof(bits));  // for all at once, or nothing becomes vector code
     for (std::size_t i = 0; i < tone_block; ++i) {
       const std::int32_t c = start_[static_cast<std::size_t>((bits[i] - lowest) >> shift)];
-      codes[i] = c + (x[i] >= threshold_[static_cast<std::size_t>(c + 1)] ? 1 : 0);
+      const std::int32_t next = c + 1;
+      codes[i] = c + (x[i] >= threshold_[static_cast<std::size_t>(next)] ? 1 : 0);
     }
   }
 
@@ -57,7 +58,8 @@ public:
     for (std::size_t i = 0; i < tone_block; ++i) {
       const float x = std::min(std::max(linear[i], 0.0F), 1.0F);
       const std::int32_t k = nearest[i] - (x < whole_[static_cast<std::size_t>(nearest[i])] ? 1 : 0);
-      const float low = whole_[static_cast<std::size_t>(k)], high = whole_[static_cast<std::size_t>(k + 1)];
+      const std::int32_t next = k + 1;
+      const float low = whole_[static_cast<std::size_t>(k)], high = whole_[static_cast<std::size_t>(next)];
       const float value = static_cast<float>(k) + ((x - low) / (high - low) + (0.5F + offset[i]));
       codes[i] = static_cast<std::int32_t>(std::min(std::max(value, 0.0F), 255.0F));  // floor
     }

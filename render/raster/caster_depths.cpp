@@ -93,8 +93,9 @@ struct alignas(64) TexelOffsets {
 constexpr TexelOffsets texel_offsets(int width) {
   TexelOffsets by{};
   for (int t = 0; t < texels_at_once; ++t) {
-    by.x[static_cast<std::size_t>(t)] = static_cast<float>(t % width);
-    by.y[static_cast<std::size_t>(t)] = static_cast<float>(t / width);
+    const int x = t % width, y = t / width;
+    by.x[static_cast<std::size_t>(t)] = static_cast<float>(x);
+    by.y[static_cast<std::size_t>(t)] = static_cast<float>(y);
   }
   return by;
 }

@@ -167,13 +167,17 @@ void light_part(const Lighting& l, const PixelRectangle& part, int step, const B
   const CoarseParts<N> parts = parts_of_cells<N>(l, cells, step);
   // The cells' border.
   const int right = step * block_width, above = step * block_height;
-  const int columns = part.width / block_width;
-  std::vector<char> alone(static_cast<std::size_t>(columns * (part.height / block_height)), 0);
+  const int columns = part.width / block_width, rows = part.height / block_height;
+  std::vector<char> alone(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
+  const auto block_of = [columns](int x, int y) {
+    const int block = y / block_height * columns + x / block_width;
+    return static_cast<std::size_t>(block);
+  };
   bool any = false;
   std::array<float, N> seen;
   for (int y = 0; y < part.height; ++y) {
     for (int x = 0; x < part.width; ++x) {
-      const auto k = static_cast<std::size_t>(y / block_height * columns + x / block_width);
+      const std::size_t k = block_of(x, y);
       if (alone[k] != 0) continue;
       switch (shared(x, y, parts, x + right, y + above, seen)) {
         case Found::nothing_there:
@@ -188,12 +192,10 @@ void light_part(const Lighting& l, const PixelRectangle& part, int step, const B
     }
   }
   if (!any) return;
-  light_each_pixel(
-      l, part, receivers_around(own, 1, [&](int x, int y, Receivers& r) {
-        const bool inside = x >= 0 && y >= 0 && x < part.width && y < part.height;
-        return inside && alone[static_cast<std::size_t>(y / block_height * columns + x / block_width)] != 0 &&
-               receivers(x, y, 1, r);
-      }));
+  light_each_pixel(l, part, receivers_around(own, 1, [&](int x, int y, Receivers& r) {
+                     const bool inside = x >= 0 && y >= 0 && x < part.width && y < part.height;
+                     return inside && alone[block_of(x, y)] != 0 && receivers(x, y, 1, r);
+                   }));
 }
 
 constexpr int ground_step = 4, surface_step = 2;
@@ -213,12 +215,13 @@ public:
     if (right <= left) return;
     around_ = {left, lower, right - left, upper - lower};
     columns_ = around_.width / tile_size;
-    hidden_.assign(static_cast<std::size_t>(columns_ * (around_.height / tile_size)), 0);
+    rows_ = around_.height / tile_size;
+    hidden_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
     for (const TileRun& run : runs) {
       if (run.lights_hidden == 0) continue;
       const int row = (static_cast<int>(run.lower) - lower) / tile_size;
       for (int x = static_cast<int>(run.left) - left; x < static_cast<int>(run.right) - left; x += tile_size)
-        hidden_[static_cast<std::size_t>(row * columns_ + x / tile_size)] = 1;
+        hidden_[place(x / tile_size, row)] = 1;
     }
   }
   const PixelRectangle& around() const { return around_; }
@@ -226,18 +229,23 @@ public:
   bool touch(int x, int y, int width, int height) const {
     const int first = std::max(x, 0) / tile_size, last = std::min((x + width - 1) / tile_size, columns_ - 1);
     const int low = std::max(y, 0) / tile_size;
-    const int high = std::min((y + height - 1) / tile_size, around_.height / tile_size - 1);
+    const int high = std::min((y + height - 1) / tile_size, rows_ - 1);
     for (int j = low; j <= high; ++j) {
       for (int i = first; i <= last; ++i) {
-        if (hidden_[static_cast<std::size_t>(j * columns_ + i)] != 0) return true;
+        if (hidden_[place(i, j)] != 0) return true;
       }
     }
     return false;
   }
 
 private:
+  std::size_t place(int i, int j) const {
+    const int tile = j * columns_ + i;
+    return static_cast<std::size_t>(tile);
+  }
+
   PixelRectangle around_;
-  int columns_ = 0;
+  int columns_ = 0, rows_ = 0;
   std::vector<char> hidden_;
 };
 

@@ -37,7 +37,8 @@ Color seen_at(const GroundSeen& map, const Vec2& at) {
     for (std::size_t i = 0; i < 3; ++i) {
       const int tx = std::clamp(x.first + static_cast<int>(i), 0, map.size - 1);
       const int ty = std::clamp(y.first + static_cast<int>(j), 0, map.size - 1);
-      sum += y.of[j] * x.of[i] * map.texels[static_cast<std::size_t>(ty * map.size + tx)];
+      const int texel = ty * map.size + tx;
+      sum += y.of[j] * x.of[i] * map.texels[static_cast<std::size_t>(texel)];
     }
   }
   return sum;
