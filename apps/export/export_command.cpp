@@ -65,7 +65,7 @@ std::string collection(const std::vector<std::pair<double, std::string>>& files)
 
 bool shows_field(const SceneDesc& scene) {
   return std::any_of(scene.body.begin(), scene.body.end(),
-                     [](const BodyDesc& body) { return body.shown.field != "none"; });
+                     [](const BodyDesc& body) { return !body.shown.is_none(); });
 }
 
 bool moves(const CameraDesc& c) {

@@ -16,7 +16,7 @@ std::vector<std::string> remarks(const ExportedScene& scene, const char* format,
     const BodyDesc& body = scene.desc.body[i];
     std::vector<std::string> what = lost(body.look);
     if (has_cloudy_inside(body.look)) what.emplace_back("subsurface (an opaque base of subsurface_color)");
-    const bool colors = body.shown.field != "none" && scene.colors.empty();
+    const bool colors = !body.shown.is_none() && scene.colors.empty();
     if (colors) what.push_back("the colours of " + body.shown.field);
     if (!what.empty())
       lines.push_back(fmt::format("{}: {} of body '{}' {} left out", format, fmt::join(what, ", "),

@@ -146,7 +146,7 @@ std::vector<ColorBar> Overlays::bars() const {
 
 std::vector<std::string> Overlays::remarks() const {
   std::vector<std::string> remarks;
-  const auto shows_field = [](const BodyDesc& body) { return body.shown.field != "none"; };
+  const auto shows_field = [](const BodyDesc& body) { return !body.shown.is_none(); };
   if (scene_.clip && scene_.clip->color && std::all_of(scene_.body.begin(), scene_.body.end(), shows_field))
     remarks.emplace_back("clip.color has no effect: the bodies' fields colour the cut");
   if (scene_.glyphs.loads != "none" && model_.load_force(0.0).size() == 0)

@@ -7,8 +7,6 @@
 namespace lagomorph::apps {
 namespace {
 
-bool shows(const ShownField& shown) { return shown.field != "none"; }
-
 /// A value that stands in the middle of a diverging map: volumes that did not change.
 const double* neutral_value(const sim::FieldInfo& field) {
   static constexpr double one = 1.0;
@@ -37,7 +35,7 @@ SurfaceFields::SurfaceFields(const SceneDesc& scene, const sim::Model& model,
   for (const BodyDesc& body : scene.body) {
     const ShownField& shown = body.shown;
     scale_of_body_.push_back(none);
-    if (!shows(shown)) continue;
+    if (shown.is_none()) continue;
     Scale wanted{sim::find_field(shown.field),
                  &colormap_of(shown),
                  !shown.range,
@@ -201,7 +199,7 @@ void SurfaceFields::color_meshes(render::Renderer& renderer, const sim::VecX& q)
 
 bool has_automatic_range(const SceneDesc& scene) {
   return std::any_of(scene.body.begin(), scene.body.end(),
-                     [](const BodyDesc& body) { return shows(body.shown) && !body.shown.range; });
+                     [](const BodyDesc& body) { return !body.shown.is_none() && !body.shown.range; });
 }
 
 }  // namespace lagomorph::apps

@@ -147,7 +147,7 @@ std::vector<std::string> Views::remarks() const {
 void Views::color(render::Renderer& renderer, const View& view, const sim::VecX& q) const {
   view.fields.color_meshes(renderer, q);
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-    if (view.scene.body[i].shown.field != "none" || !shows_field(scene_, i)) continue;
+    if (!view.scene.body[i].shown.is_none() || !shows_field(scene_, i)) continue;
     renderer.update_colors(static_cast<int>(i), plain_colors(scene_, surfaces_[i], i));
   }
 }

@@ -109,8 +109,8 @@ void check_panel(const SceneDesc& scene, std::size_t i, const Places& places) {
   }
   const SceneDesc shown = panel_scene(scene, i);
   check_moves(shown, path, places);
-  const bool has_field = std::any_of(shown.body.begin(), shown.body.end(),
-                                     [](const BodyDesc& b) { return b.shown.field != "none"; });
+  const bool has_field =
+      std::any_of(shown.body.begin(), shown.body.end(), [](const BodyDesc& b) { return !b.shown.is_none(); });
   if (!has_field && (panel.range || panel.colormap != "same")) {
     wrong_input(fmt::format("{}{} has a range or colormap, but shows no field", places.of(path), path));
   }

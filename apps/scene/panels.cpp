@@ -84,7 +84,7 @@ SceneDesc panel_scene(const SceneDesc& scene, std::size_t panel) {
 }
 
 bool shows_field(const SceneDesc& scene, std::size_t body) {
-  const bool own = scene.body[body].shown.field != "none";
+  const bool own = !scene.body[body].shown.is_none();
   if (scene.panel.empty()) return own;
   return std::any_of(scene.panel.begin(), scene.panel.end(),
                      [&](const PanelDesc& p) { return p.field == "same" ? own : p.field != "none"; });

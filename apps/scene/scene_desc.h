@@ -33,6 +33,8 @@ struct ShownField {
   std::string colormap = "auto";               // see render::colormap_names(); auto: the field's own
   std::optional<std::array<double, 2>> range;  // low < high; none: that of the whole sequence
   bool color_bar = true;                       // in the picture
+
+  bool is_none() const { return field == "none"; }
 };
 
 struct BodyDesc {

@@ -15,13 +15,13 @@ Brdf::Brdf(const Material& m, float base_share) {
   c.alpha = std::max(m.roughness * m.roughness, 1e-3F);  // sharper is a mirror but for what float resolves
   constexpr int intervals = CosineTable::intervals;
   for (int i = 0; i <= intervals; ++i) {
-    const float cosine = static_cast<float>(i) / intervals;
+    const float cosine = CosineTable::cosine(i);
     const CoatAlbedo a = coat_albedo(cosine, m.roughness);
     c.scale.at[i] = a.scale;
     c.offset.at[i] = a.offset;
     c.into_base.at[i] = 1.0F - c.coat_f0 * a.scale - coat_f90 * a.offset;
     c.lost.at[i] = std::max(1.0F - a.scale - a.offset, 0.0F);
-    const float weight = 2.0F * cosine * (i == intervals ? 0.5F : 1.0F) / intervals;
+    const float weight = CosineTable::weight(i);
     mean_into_base_ += c.into_base.at[i] * weight;
     c.mean_lost += c.lost.at[i] * weight;
   }

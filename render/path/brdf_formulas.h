@@ -23,6 +23,12 @@ struct BrdfView {
 struct CosineTable {
   static constexpr int intervals = 64;
   float at[intervals + 1];
+
+  static constexpr float cosine(int i) { return static_cast<float>(i) / intervals; }
+  /// Of value i in the mean over the hemisphere, 2 int f(c) c dc.
+  static constexpr float weight(int i) {
+    return 2.0F * cosine(i) * (i == intervals ? 0.5F : 1.0F) / intervals;
+  }
 };
 LAGOMORPH_INLINE float look_up(const CosineTable& table, float cosine) {
   const float x = std::min(cosine, 0x1.fffffep-1F) * CosineTable::intervals;

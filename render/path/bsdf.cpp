@@ -33,12 +33,10 @@ Material white_base(Material m) {
 template <typename Loss>
 LayersLoss layers_loss(const Loss& loss) {
   LayersLoss table;
-  constexpr int intervals = CosineTable::intervals;
-  for (int i = 0; i <= intervals; ++i) {
-    const float cosine = static_cast<float>(i) / intervals;
-    const float z = std::max(cosine, 1e-3F);
+  for (int i = 0; i <= CosineTable::intervals; ++i) {
+    const float z = std::max(CosineTable::cosine(i), 1e-3F);
     table.at.at[i] = std::max(loss(Vec3(std::sqrt(1.0F - z * z), 0.0F, z)), 0.0F);
-    table.mean += table.at.at[i] * 2.0F * cosine * (i == intervals ? 0.5F : 1.0F) / intervals;
+    table.mean += table.at.at[i] * CosineTable::weight(i);
   }
   return table;
 }
@@ -81,12 +79,10 @@ struct Bsdf::Layers {
     if (transmission > 0.0F)
       inside_loss = layers_loss([&](const Vec3& wo) { return lost_inside(mirrored(wo)); });
     // Of light that leaves a cloudy inside, spread as let_out: as much as enters under the layers.
-    constexpr int intervals = CosineTable::intervals;
     mean_under = 0.0F;
-    for (int i = 1; i <= intervals; ++i) {
-      const float cosine = static_cast<float>(i) / intervals;
-      const float weight = 2.0F * cosine * (i == intervals ? 0.5F : 1.0F) / intervals;
-      mean_under += weight * white.let_out(cosine) * under(cosine);
+    for (int i = 1; i <= CosineTable::intervals; ++i) {
+      const float cosine = CosineTable::cosine(i);
+      mean_under += CosineTable::weight(i) * white.let_out(cosine) * under(cosine);
     }
   }
 

@@ -210,9 +210,11 @@ void LightMaps::draw(std::span<const MeshBuffers> meshes, std::span<const std::v
         {positions[k], mesh.triangles(), mesh.closed(), mesh.material().opacity, mesh.body_id()});
   }
   draw_light_depths(light_views_, casters, settings_.shadow_map, depths_.lights);
-  depths_.sky.resize(has_meshes_ ? depths_.sky.size() : 0);
-  if (has_meshes_)
+  if (has_meshes_) {
     draw_sky_depths(block, casters, sky_map_size, depths_.sky, ground_ ? &depths_.sky_from_below : nullptr);
+  } else {
+    depths_.sky.clear();
+  }
   if (!ground_) return;
   light_ground_map(block, depths_, ground_lit_);
   ground_lit_texture_.take(ground_lit_);

@@ -14,11 +14,14 @@ namespace lagomorph::render::raster {
 namespace {
 
 constexpr Parts whole = {65535, 65535, 65535, 65535};
-constexpr int cells_width = 2 * block_width,
-              cells_height = 2 * block_height;  // of a block of cells of a surface [pixels]
+constexpr int ground_step = 4, surface_step = 2;  // of their cells [pixels]
 
 std::uint16_t fraction(float x) {
   return static_cast<std::uint16_t>(std::clamp(x * 65535.0F + 0.5F, 0.0F, 65535.0F));
+}
+
+Parts colors(float red, float green, float blue) {
+  return {fraction(red), fraction(green), fraction(blue), 65535};
 }
 
 /// Blocks of `part` with a block more to all sides, for neighbours of its points to be there; receivers(x, y,
@@ -39,7 +42,7 @@ ReceiverBlocks receivers_around(const PixelRectangle& part, int step, const Bloc
 /// What cells say of a pixel.
 enum class Found { nothing_there, yes, no };
 
-/// Calls part() for bands of a rectangle of whole blocks of quads, on all threads.
+/// Calls part() for bands of a rectangle of whole blocks of cells, on all threads.
 template <class Part>
 void for_bands(int width, int height, const Part& part) {
   constexpr int most = 64;  // rows, over which a block more to both sides is little
@@ -59,8 +62,7 @@ std::size_t area(const PixelRectangle& r) {
 void put_sky(const Lanes3& seen, const PixelRectangle& at, int x, int y, std::vector<Parts>& parts) {
   for (int lane = 0; lane < lanes; ++lane) {
     const Vec3 v = seen.at(lane);
-    parts[pixel_of(at, x + column(lane), y + row(lane))] = {fraction(v.x()), fraction(v.y()), fraction(v.z()),
-                                                            65535};
+    parts[pixel_of(at, x + column(lane), y + row(lane))] = colors(v.x(), v.y(), v.z());
   }
 }
 
@@ -123,9 +125,7 @@ CoarseParts<N> parts_of_cells(const Lighting& l, const ReceiverBlocks& cells, in
 template <std::size_t N>
 void put_parts(const std::array<float, N>& seen, std::size_t pixel, LitPixels& lit) {
   for (std::size_t i = 0; i < most_lights; ++i) lit.lights[pixel][i] = fraction(seen[i]);
-  const auto sky = [&](std::size_t first) {
-    return Parts{fraction(seen[first]), fraction(seen[first + 1]), fraction(seen[first + 2]), 65535};
-  };
+  const auto sky = [&](std::size_t first) { return colors(seen[first], seen[first + 1], seen[first + 2]); };
   if constexpr (N > first_sky) lit.diffuse[pixel] = sky(first_sky);
   if constexpr (N > first_mirrored) lit.mirrored[pixel] = sky(first_mirrored);
 }
@@ -157,7 +157,8 @@ void light_each_pixel(const Lighting& l, const PixelRectangle& part, const Recei
 }
 
 /// By cells of step x step pixels where that will do. receivers(x, y, step, r) are those of a block at pixel
-/// (x, y) of the part; shared(x, y, cells, seen) what the cells say of a pixel, false where they say nothing.
+/// (x, y) of the part; shared(x, y, cells, at_x, at_y, seen) what the cells, from whose own corner the pixel
+/// is at (at_x, at_y), say of it.
 template <std::size_t N, class BlockReceivers, class Shared>
 void light_part(const Lighting& l, const PixelRectangle& part, int step, const BlockReceivers& receivers,
                 const Shared& shared) {
@@ -197,8 +198,6 @@ void light_part(const Lighting& l, const PixelRectangle& part, int step, const B
                      return inside && alone[block_of(x, y)] != 0 && receivers(x, y, 1, r);
                    }));
 }
-
-constexpr int ground_step = 4, surface_step = 2;
 
 /// Of tiles, those that are in runs in which lights may be hidden.
 class HiddenTiles {
@@ -254,8 +253,9 @@ private:
 PixelRectangle whole_blocks(const PixelRectangle& r) {
   const auto down = [](int x, int step) { return x / step * step; };
   const auto up = [](int x, int step) { return (x + step - 1) / step * step; };
-  const int x = down(r.x, cells_width), y = down(r.y, cells_height);
-  return {x, y, up(r.x + r.width, cells_width) - x, up(r.y + r.height, cells_height) - y};
+  constexpr int width = surface_step * block_width, height = surface_step * block_height;
+  const int x = down(r.x, width), y = down(r.y, height);
+  return {x, y, up(r.x + r.width, width) - x, up(r.y + r.height, height) - y};
 }
 
 void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<const TileRun> runs,

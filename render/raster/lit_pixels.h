@@ -22,7 +22,8 @@ struct LitPixels {
   std::vector<Parts> lights, diffuse, mirrored;  // the last two where they are asked for; else empty
 };
 
-/// The smallest rectangle of whole blocks of quads around one, in a picture of whole blocks or a little less.
+/// The smallest rectangle of whole blocks of a surface's cells around one, in a picture of whole blocks or a
+/// little less.
 PixelRectangle whole_blocks(const PixelRectangle&);
 
 /// Of the ground in tiles, where their lights may be hidden: the lights alone, of the rectangle around them.

@@ -19,4 +19,8 @@ std::optional<GroundPoint> ground_at_pixel(const FrameBlock& frame, float x, flo
   return ground;
 }
 
+bool ground_is_below(const FrameBlock& frame) {
+  return frame.eye.w() > 0.5F ? frame.forward.y() < 0.0F : frame.eye.y() > frame.ground.x();
+}
+
 }  // namespace lagomorph::render::raster

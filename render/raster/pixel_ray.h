@@ -21,4 +21,7 @@ struct GroundPoint {
 };
 std::optional<GroundPoint> ground_at_pixel(const FrameBlock&, float x, float y);
 
+/// Whether its upper side is seen.
+bool ground_is_below(const FrameBlock&);
+
 }  // namespace lagomorph::render::raster

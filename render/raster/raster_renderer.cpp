@@ -34,7 +34,7 @@ using namespace raster;
 
 constexpr int most_peels = 256;  // surfaces that are not opaque, one behind the other
 
-RasterSettings checked(const RasterSettings& s) {
+void check(const RasterSettings& s) {
   if (s.multisample != 1 && s.multisample != 4) {
     throw SettingsError("render.raster.multisample = " + std::to_string(s.multisample) +
                         " must be 1 or 4 (the software rasterizer's most)");
@@ -50,14 +50,13 @@ RasterSettings checked(const RasterSettings& s) {
     throw SettingsError("render.raster.shadow_samples = " + std::to_string(s.shadow_samples) +
                         " must be in 1..64");
   }
-  return s;
 }
 
 class RasterRenderer final : public Renderer {
 public:
   RasterRenderer(const RenderSettings& settings, int threads)
       : settings_(settings),
-        raster_(checked(settings.raster)),
+        raster_(settings.raster),
         context_(make_gl_context(threads)),
         gl_(std::make_unique<GlSide>(raster_)) {}
 
@@ -565,7 +564,7 @@ std::string RasterRenderer::description() const {
 }  // namespace
 
 std::unique_ptr<Renderer> make_raster_renderer(const RenderSettings& settings, int threads) {
-  checked(settings.raster);
+  check(settings.raster);
   const auto make = [threads](const RenderSettings& s) -> std::unique_ptr<Renderer> {
     return std::make_unique<RasterRenderer>(s, threads);
   };

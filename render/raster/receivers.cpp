@@ -59,7 +59,7 @@ void put_ground(Receivers& r, int lane, const Vec3& point, float normal_y, float
   r.footprint[l] = footprint;
 }
 
-/// The first point of a quad where one is, from its lower left pixel on; of a step of 1 that alone.
+/// The first point of a cell of step x step pixels where one is, from its lower left pixel on.
 template <class Point>
 auto first_of(int x, int y, int step, const Point& point) -> decltype(point(x, y)) {
   for (int j = 0; j < step; ++j) {
@@ -86,6 +86,7 @@ float pixel_footprint(const FrameBlock& frame, float depth) {
 Vec3 normal_of(const SurfaceTexel& texel) { return direction_of(unpacked(texel.normal)); }
 
 bool ground_receivers(const FrameBlock& frame, int x, int y, int step, Receivers& r) {
+  const float normal_y = ground_is_below(frame) ? 1.0F : -1.0F;
   bool any = false;
   for (int lane = 0; lane < lanes; ++lane) {
     clear(r, lane);
@@ -94,8 +95,7 @@ bool ground_receivers(const FrameBlock& frame, int x, int y, int step, Receivers
           return ground_at_pixel(frame, static_cast<float>(px) + 0.5F, static_cast<float>(py) + 0.5F);
         });
     if (!ground) continue;
-    const bool above = frame.eye.w() > 0.5F ? frame.forward.y() < 0.0F : frame.eye.y() > ground->point.y();
-    put_ground(r, lane, ground->point, above ? 1.0F : -1.0F, pixel_footprint(frame, ground->depth));
+    put_ground(r, lane, ground->point, normal_y, pixel_footprint(frame, ground->depth));
     any = true;
   }
   return any;

@@ -38,7 +38,7 @@ Vec3 normal_of(const SurfaceTexel&);
 /// Size of a pixel at a depth along the view axis [m], as pixel_footprint() of the shaders.
 float pixel_footprint(const FrameBlock&, float depth);
 
-/// A rectangle of pixels, or of quads of two by two, as blocks of receivers: rows of blocks from below.
+/// A rectangle of pixels, or of cells of several, as blocks of receivers: rows of blocks from below.
 struct ReceiverBlocks {
   int columns = 0, rows = 0;  // of blocks
   std::vector<Receivers> blocks;
@@ -58,8 +58,7 @@ struct ReceiverBlocks {
 };
 
 /// Each puts the points of the pixels `step` apart from (x, y) on into a block, and returns whether any is
-/// there. Of a step of 2, each stands for its quad of pixels: the lower left one where something is seen
-/// there.
+/// there. Each stands for its cell of step x step pixels: the lower left one where something is seen there.
 bool ground_receivers(const FrameBlock&, int x, int y, int step, Receivers&);
 bool surface_receivers(const FrameBlock&, bool with_mirrored, const SurfaceTexels&, int x, int y, int step,
                        Receivers&);

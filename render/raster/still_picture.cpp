@@ -9,6 +9,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "render/raster/pixel_ray.h"
 #include "render/raster/shaders/shaders.h"
 
 namespace lagomorph::render::raster {
@@ -72,17 +73,16 @@ const StillParts& StillPicture::draw(const FrameBlock& frame, int first_row, int
     glBindVertexArray(no_attributes_.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     read_picture();
-    read_light();
+    if (const bool below = ground_is_below(frame); light_of_ground_below_ != below) {
+      read_light();
+      light_of_ground_below_ = below;
+    }
     first_row_ = last_row_ = 0;
     seen_by_ = view;
   }
   first_row = std::max(first_row, 0), last_row = std::min(last_row, read_.height);
   if (first_row >= last_row) return read_;
-  if (first_row_ == last_row_) {
-    read_rows(first_row, last_row);
-    first_row_ = first_row, last_row_ = last_row;
-    return read_;
-  }
+  if (first_row_ == last_row_) first_row_ = last_row_ = first_row;
   if (first_row < first_row_) read_rows(first_row, first_row_);
   if (last_row > last_row_) read_rows(last_row_, last_row);
   first_row_ = std::min(first_row_, first_row), last_row_ = std::max(last_row_, last_row);
@@ -101,7 +101,7 @@ void StillPicture::read_picture() {
   });
 }
 
-/// The light on the ground with nothing before it, which is the same everywhere.
+/// The light on the side of the ground that is seen, with nothing before it; it is the same everywhere.
 void StillPicture::read_light() {
   const std::array<Texture, 2> light;
   const Framebuffer target;

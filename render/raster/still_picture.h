@@ -21,7 +21,10 @@ public:
     return features == features_ && lights == lights_;
   }
   /// The lights or the ground are others now.
-  void forget() { seen_by_.reset(); }
+  void forget() {
+    seen_by_.reset();
+    light_of_ground_below_.reset();
+  }
   /// Draws it where it is not there yet; the frame's block and all maps are bound. What the meshes take is
   /// there in these rows of pixels at least.
   const StillParts& draw(const FrameBlock&, int first_row, int last_row);
@@ -50,6 +53,7 @@ private:
   Program still_, light_;
   std::optional<Sized> sized_;
   std::optional<View> seen_by_;
+  std::optional<bool> light_of_ground_below_;  // whether it is that of the upper side
   VertexArray no_attributes_;
   StillParts read_;
   int first_row_ = 0, last_row_ = 0;  // of read_.planes

@@ -250,13 +250,19 @@ TEST(RasterShadow, APenumbraHasNoStepsOfTwoPixels) {
   EXPECT_NEAR(within / between, 1.0F, 0.1F);  // 0 where a quad is of one value
 }
 
-TEST(RasterShadow, TheSkyIsDimmedUnderABody) {
+/// A ball that touches the ground under the sky alone.
+RenderScene sphere_on_ground(int rings) {
   RenderScene scene = empty_scene();
   scene.ground.enabled = true;
   scene.sky.strength = 1.0F;
-  scene.meshes = {sphere(Vec3(0.0F, 0.5F, 0.0F), 0.5F, 24)};
+  scene.meshes = {sphere(Vec3(0.0F, 0.5F, 0.0F), 0.5F, rings)};
   scene.meshes[0].material = scene.ground.material =
       matte(0.02F);  // so that hardly any light goes between them
+  return scene;
+}
+
+TEST(RasterShadow, TheSkyIsDimmedUnderABody) {
+  const RenderScene scene = sphere_on_ground(24);
   CameraSettings camera;
   camera.position = Vec3(0.0F, 0.6F, 4.0F);
   camera.look_at = Vec3(0.0F, 0.3F, 0.0F);
@@ -273,13 +279,9 @@ TEST(RasterShadow, TheSkyIsDimmedUnderABody) {
 
 /// Near where a body touches the ground, where hardly anything of the sky is seen.
 TEST(RasterShadow, TheSkyIsHiddenAtAContact) {
-  RenderScene scene = empty_scene();
-  scene.ground.enabled = true;
+  RenderScene scene = sphere_on_ground(48);
   scene.ground.radius = 40.0F;
   scene.ground.fade_start = 30.0F;
-  scene.sky.strength = 1.0F;
-  scene.meshes = {sphere(Vec3(0.0F, 0.5F, 0.0F), 0.5F, 48)};
-  scene.meshes[0].material = scene.ground.material = matte(0.02F);
   CameraSettings camera;
   camera.position = Vec3(0.0F, 0.3F, 3.0F);
   camera.look_at = Vec3(0.0F, 0.05F, 0.0F);
