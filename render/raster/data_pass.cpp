@@ -33,14 +33,14 @@ constexpr std::array<Part, 6> parts = {{
 
 }  // namespace
 
-DataPass::DataPass(int width, int height, bool colors)
+DataPass::DataPass(int width, int height, bool colors, const LightFeatures& features)
     : width_(width),
       height_(height),
       colors_(colors),
       mesh_("mesh data", {"#define MOTION\n", color_definition(colors), shaders::frame, shaders::mesh_vertex},
             {color_definition(colors), shaders::frame, shaders::data_outputs, shaders::data_fragment}),
       ground_("ground data", {shaders::frame, shaders::ground_vertex},
-              {shaders::frame, shaders::ground_point, shaders::ground_color, shaders::data_outputs,
+              {features.definitions().c_str(), shaders::frame, shaders::ground_point, shaders::ground_color, shaders::data_outputs,
                shaders::ground_data_fragment}) {
   bind(target_, width, height);
   const std::array<const Texture*, 3> textures = {&position_and_triangle_, &normal_and_motion_x_,

@@ -4,6 +4,7 @@
 
 #include "render/image.h"
 #include "render/raster/gl_objects.h"
+#include "render/raster/programs.h"
 #include "render/types.h"
 
 namespace lagomorph::render::raster {
@@ -13,7 +14,7 @@ namespace lagomorph::render::raster {
 class DataPass {
 public:
   /// `colors`: meshes may have colours of their vertices. Throws DeviceError when it cannot be had.
-  DataPass(int width, int height, bool colors);
+  DataPass(int width, int height, bool colors, const LightFeatures&);
 
   int width() const { return width_; }
   int height() const { return height_; }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "render/ground_texture.h"
 #include "render/raster/caster_depths.h"
 #include "render/raster/light_view.h"
 #include "render/raster/shaders/shaders.h"
@@ -153,9 +152,7 @@ void LightMaps::set_scene(const RenderScene& scene, const LightFeatures& feature
   const Ground& g = scene.ground;
   block.ground = Vec4(g.height, g.radius, g.fade_start, 0.0F);
   show_ground(g.enabled, block);
-  const std::vector<std::string> textures = ground_texture_names();
-  const auto texture = std::find(textures.begin(), textures.end(), g.texture) - textures.begin();
-  block.ground_texture = Vec4(static_cast<float>(texture), g.texture_size, g.line_width, 0.0F);
+  block.ground_texture = Vec4(0.0F, g.texture_size, g.line_width, 0.0F);
   block.texture_color = vec4(g.texture_color, 0.0F);
   block.ground_at = vec4(Vec3(g.center.x(), g.height, g.center.z()), 0.0F);
   block.counts =

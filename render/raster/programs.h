@@ -11,9 +11,11 @@ struct LightFeatures {
   bool sky_map = false;      // the sky is a map
   bool sun_discs = false;    // suns are seen in the sky
   bool see_through = false;  // some bodies are not opaque; the shaders of light need not know
+  int ground_texture = 0;    // its number in ground_texture_names()
   bool operator==(const LightFeatures&) const = default;
 
-  /// For all shaders that know of the sky.
+  /// For all shaders that know of the sky or the ground's colour. Preprocessor's, not uniforms: the software
+  /// rasterizer goes through both sides of every branch.
   std::string definitions() const;
 };
 

@@ -10,6 +10,7 @@
 
 #include "render/backends.h"
 #include "render/error.h"
+#include "render/ground_texture.h"
 #include "render/raster/data_pass.h"
 #include "render/raster/frame_block.h"
 #include "render/raster/gl_context.h"
@@ -187,7 +188,9 @@ void RasterRenderer::make_programs() {
                                                            [](const Sun& sun) { return sun.visible; });
   const bool see_through = std::any_of(gl_->meshes.begin(), gl_->meshes.end(),
                                        [](const MeshBuffers& mesh) { return mesh.see_through(); });
-  const LightFeatures features{scene_.sky.map != nullptr, sees_suns, see_through};
+  const std::vector<std::string> textures = ground_texture_names();
+  const auto texture = std::find(textures.begin(), textures.end(), scene_.ground.texture) - textures.begin();
+  const LightFeatures features{scene_.sky.map != nullptr, sees_suns, see_through, static_cast<int>(texture)};
   if (!gl_->programs || !(features == gl_->features)) {
     gl_->features = features;
     gl_->programs.reset();
@@ -195,6 +198,7 @@ void RasterRenderer::make_programs() {
     gl_->colored.reset();
     gl_->peel.reset();
     gl_->alpha.reset();
+    gl_->data.reset();
   }
   if (gl_->has_colors && !gl_->colored) gl_->colored.emplace(raster_.multisample, true, features);
   if (see_through && (!gl_->peel || gl_->peel_has_colors != gl_->has_colors)) {
@@ -545,7 +549,7 @@ void RasterRenderer::draw_data(Image& image, const Mat4& clip_before) {
   if (!data || data->width() != image.width() || data->height() != image.height() ||
       data->colors() != gl_->has_colors) {
     data.reset();
-    data.emplace(image.width(), image.height(), gl_->has_colors);
+    data.emplace(image.width(), image.height(), gl_->has_colors, gl_->features);
   }
   data->begin(clip_before);
   if (scene_.ground.enabled) {

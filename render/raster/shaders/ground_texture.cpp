@@ -6,6 +6,9 @@ namespace lagomorph::render::raster::shaders {
 // independent standard deviations of it add to x and z [m]. See ground_texture.h. A box would let a quarter
 // of what is finer than it through, as moire at the horizon.
 const char* const ground_color = R"(
+#if GROUND_TEXTURE == 0
+vec3 ground_color_at(vec3 x, mat2 spread) { return surfaces[0].color.rgb; }
+#else
 // Of a standard deviation of 1 [Abramowitz and Stegun 1964, 7.1.26].
 vec2 normal_below(vec2 x) {
   vec2 z = abs(x) * 0.70710678;
@@ -31,6 +34,7 @@ vec2 on_lines(vec2 x, vec2 deviation, float period, float line) {
   return mix(lines, wave, greaterThan(waves, vec2(0.3)));
 }
 
+#if GROUND_TEXTURE == 1
 // A checker is the product of two square waves, its signs. Seen aslant x and z are correlated; the product's Fourier
 // series knows of that.
 float checker_waves(vec2 x, mat2 spread, float size) {
@@ -53,23 +57,22 @@ float checker_signs(vec2 x, mat2 spread, vec2 deviation, float size) {
   float blurred = smoothstep(0.1, 0.2, min(deviation.x, deviation.y) / size);
   return blurred > 0.0 ? mix(edges, checker_waves(x, spread, size), blurred) : edges;
 }
+#endif
 
 vec3 ground_color_at(vec3 x, mat2 spread) {
-  vec3 plain = surfaces[0].color.rgb;
-  if (ground_texture.x < 0.5) return plain;
   float size = ground_texture.y;
   vec2 deviation = sqrt(spread[0] * spread[0] + spread[1] * spread[1]);
-  float part;
-  if (ground_texture.x < 1.5) {
-    part = 0.5 - 0.5 * checker_signs(x.xz, spread, deviation, size);
-  } else {
-    vec2 fine = on_lines(x.xz, deviation, size, ground_texture.z);
-    vec2 metres = on_lines(x.xz, deviation, 1.0, 3.0 * ground_texture.z);
-    vec2 line = max(fine, metres);
-    part = 1.0 - (1.0 - line.x) * (1.0 - line.y);
-  }
-  return mix(plain, texture_color.rgb, part);
+#if GROUND_TEXTURE == 1
+  float part = 0.5 - 0.5 * checker_signs(x.xz, spread, deviation, size);
+#else
+  vec2 fine = on_lines(x.xz, deviation, size, ground_texture.z);
+  vec2 metres = on_lines(x.xz, deviation, 1.0, 3.0 * ground_texture.z);
+  vec2 line = max(fine, metres);
+  float part = 1.0 - (1.0 - line.x) * (1.0 - line.y);
+#endif
+  return mix(surfaces[0].color.rgb, texture_color.rgb, part);
 }
+#endif
 )";
 
 }  // namespace lagomorph::render::raster::shaders
