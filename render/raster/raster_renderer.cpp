@@ -175,7 +175,6 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
     gl_->still.reset();
     gl_->still.emplace(gl_->features, lights);
   }
-  gl_->still->forget();
   upload_surfaces(scene);
   gl_->maps.set_scene(scene_, gl_->features, block_);
   lights_are_stale_ = true;
@@ -215,6 +214,7 @@ void RasterRenderer::upload_surfaces(const RenderScene& scene) {
     surfaces.push_back(surface_block(mesh.material, mean_chord(mesh.positions, mesh.triangles)));
   for (const AreaLight& light : scene_.lights)
     surfaces.push_back({vec4(Color(light.radiance * light.color), 1.0F), Vec4::Zero()});
+  gl_->still->set_ground(surfaces.front());
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, gl_->surfaces.id());
   glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(surfaces.size() * sizeof(SurfaceBlock)),
                surfaces.data(), GL_STATIC_DRAW);
@@ -410,11 +410,7 @@ void RasterRenderer::draw_seen(bool behind_ground) const {
 /// The background and the ground over it.
 void RasterRenderer::put_background(const PixelRectangle& drawn, std::span<float> color) {
   const std::vector<TileRun> tiles = touched_tiles(block_, gl_->maps.casters(), raster_.shadow_map, drawn);
-  const auto rows = std::minmax_element(tiles.begin(), tiles.end(),
-                                        [](const TileRun& a, const TileRun& b) { return a.lower < b.lower; });
-  const StillParts& still = tiles.empty() ? gl_->still->draw(block_, 0, 0)
-                                          : gl_->still->draw(block_, static_cast<int>(rows.first->lower),
-                                                             static_cast<int>(rows.second->upper));
+  const StillParts& still = gl_->still->draw(block_, tiles);
   light_ground(block_, gl_->maps.depths(), tiles, lit_);
   copy_less_taken(block_, still, gl_->maps.ground_seen(), tiles, lit_, drawn, color);
 }

@@ -156,7 +156,7 @@ void take_run(const FrameBlock& frame, const StillParts& still, const GroundSeen
       row.count = std::min(most_pixels, at.x + at.width - x);
       const std::size_t pixel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(still.width) + static_cast<std::size_t>(x);
-      row.planes = still.planes.data() + pixel;
+      row.planes = still.planes.get() + pixel;
       row.plane = still.pixels();
       row.lights = still.lights;
       if (run.lights_hidden != 0) {

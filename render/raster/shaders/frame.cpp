@@ -31,9 +31,12 @@ layout(std140, binding = 0) uniform Frame {
 layout(std430, binding = 0) readonly buffer Surfaces { Surface surfaces[]; };  // the ground's is the first
 
 #ifdef FRAGMENT
+#ifndef AT_PIXEL
+#define AT_PIXEL gl_FragCoord.xy
+#endif
 // The camera's ray through this pixel's centre; the direction has length 1 along the view axis.
 void pixel_ray(out vec3 origin, out vec3 direction) {
-  vec2 p = 2.0 * gl_FragCoord.xy * viewport.zw - 1.0;
+  vec2 p = 2.0 * AT_PIXEL * viewport.zw - 1.0;
   vec3 across = p.x * right.xyz + p.y * up.xyz;
   bool parallel_rays = eye.w > 0.5;
   origin = eye.xyz + (parallel_rays ? across : vec3(0.0));

@@ -43,8 +43,10 @@ vec3 ground_normal(vec3 v) { return vec3(0.0, v.y > 0.0 ? 1.0 : -1.0, 0.0); }
 // The picture without the meshes, and what they can take from the ground in it, times the part of the ground
 // that does not fade: see still_parts.h. Highlights end where half floats do, so that a shadow leaves
 // nothing of them.
+//
+// With CELLS at the corners of cells of pixels, of ground that does not fade, before nothing and of one colour.
 const char* const still_fragment = R"(
-layout(location = 0) out vec4 picture;
+layout(location = 0) out vec4 picture;   // CELLS: what the ground sends; w 1 where it is met
 layout(location = 1) out vec4 diffuse;   // what the sky's light on the ground becomes; w: of a white ground
 layout(location = 2) out vec4 mirrored;  // of the sky
 #if LIGHTS > 0
@@ -52,10 +54,17 @@ layout(location = 3) out vec4 lit[LIGHTS];
 #endif
 layout(location = 3 + LIGHTS) out vec4 mirrored_mesh;  // what the light on a mesh before the sky becomes
 const float most = 65504.0;
+#ifdef CELLS
+uniform bool in_texture_color;
+#endif
 void main() {
   vec3 origin, direction;
   pixel_ray(origin, direction);
+#ifdef CELLS
+  picture = vec4(0.0);
+#else
   picture = vec4(background_radiance(direction), 1.0);
+#endif
   diffuse = vec4(0.0);
   mirrored = vec4(0.0);
   mirrored_mesh = vec4(0.0);
@@ -64,13 +73,21 @@ void main() {
 #endif
   Point p;
   float depth;
-  bool met = meet_ground(p.x, depth);
-  float part = met && ground.w > 0.5 ? 1.0 - ground_fade(p.x) : 0.0;
+  bool met = meet_ground(p.x, depth) && ground.w > 0.5;
+#ifdef CELLS
+  float part = met ? 1.0 : 0.0;
+#else
+  float part = met ? 1.0 - ground_fade(p.x) : 0.0;
+#endif
   if (part <= 0.0) return;
   vec3 v = towards_eye(p.x);
   p.normal = ground_normal(v);
   Surface surface = surfaces[0];
+#ifdef CELLS
+  if (in_texture_color) surface.color.rgb = texture_color.rgb;
+#else
   surface.color.rgb = ground_color_at(p.x, ground_spread(depth));
+#endif
   Finish finish = finish_of(surface, p.normal, v);
   SkyLight sky = sky_light(finish, p.normal, v, radiance_below_ground(p.normal));
   vec3 sent = part * sent_of_sky(finish, sky, SkySeen(vec3(1.0), vec3(1.0)));
@@ -80,10 +97,40 @@ void main() {
     sent += lit[i].rgb;
   }
 #endif
+#ifdef CELLS
+  picture = vec4(sent, 1.0);
+#else
   picture.rgb = (1.0 - part) * picture.rgb + sent;
+#endif
   diffuse = min(part / PI * vec4(finish.out_of_base * finish.coat.diffuse + finish.multiple, finish.out_of_base), most);
   mirrored.rgb = min(part * finish.mirrors * sky.mirrored, most);
   mirrored_mesh.rgb = min(part * finish.mirrors * sky.mirrored_mesh, most);
+}
+)";
+
+// Tiles of the picture, one beside the other in a square of 16 by 16 of them; TILE is their side [pixels].
+const char* const tiles_vertex = R"(
+uniform ivec2 tiles[256];
+flat out vec2 tile_offset;  // [pixels]
+void main() {
+  vec2 slot = vec2(gl_InstanceID % 16, gl_InstanceID / 16);
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  gl_Position = vec4((slot + corner) / 8.0 - 1.0, 0.0, 1.0);
+  tile_offset = TILE * (vec2(tiles[gl_InstanceID]) - slot);
+}
+)";
+
+// Of the picture without the meshes what has no cells: the background, and the texture's part of the ground's colour.
+const char* const backdrop_fragment = R"(
+out vec4 backdrop;
+void main() {
+  vec3 x, origin, direction;
+  float depth;
+  pixel_ray(origin, direction);
+  backdrop = vec4(background_radiance(direction), 0.0);
+#if GROUND_TEXTURE > 0
+  if (meet_ground(x, depth)) backdrop.w = ground_texture_at(x, ground_spread(depth));
+#endif
 }
 )";
 

@@ -59,18 +59,22 @@ float checker_signs(vec2 x, mat2 spread, vec2 deviation, float size) {
 }
 #endif
 
-vec3 ground_color_at(vec3 x, mat2 spread) {
+// Part that texture_color has.
+float ground_texture_at(vec3 x, mat2 spread) {
   float size = ground_texture.y;
   vec2 deviation = sqrt(spread[0] * spread[0] + spread[1] * spread[1]);
 #if GROUND_TEXTURE == 1
-  float part = 0.5 - 0.5 * checker_signs(x.xz, spread, deviation, size);
+  return 0.5 - 0.5 * checker_signs(x.xz, spread, deviation, size);
 #else
   vec2 fine = on_lines(x.xz, deviation, size, ground_texture.z);
   vec2 metres = on_lines(x.xz, deviation, 1.0, 3.0 * ground_texture.z);
   vec2 line = max(fine, metres);
-  float part = 1.0 - (1.0 - line.x) * (1.0 - line.y);
+  return 1.0 - (1.0 - line.x) * (1.0 - line.y);
 #endif
-  return mix(surfaces[0].color.rgb, texture_color.rgb, part);
+}
+
+vec3 ground_color_at(vec3 x, mat2 spread) {
+  return mix(surfaces[0].color.rgb, texture_color.rgb, ground_texture_at(x, spread));
 }
 #endif
 )";

@@ -14,12 +14,14 @@ extern const char* const layer_point;  // the mean of one of those
 
 extern const char* const full_screen_vertex;
 extern const char* const layer_vertex;
+extern const char* const tiles_vertex;
 extern const char* const mesh_vertex;
 extern const char* const ground_vertex;
 extern const char* const emitter_vertex;
 
 extern const char* const seen_fragment;
 extern const char* const still_fragment;
+extern const char* const backdrop_fragment;
 extern const char* const ground_light_fragment;
 extern const char* const surface_fragment;
 extern const char* const layer_fragment;
