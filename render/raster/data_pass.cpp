@@ -40,8 +40,8 @@ DataPass::DataPass(int width, int height, bool colors, const LightFeatures& feat
       mesh_("mesh data", {"#define MOTION\n", color_definition(colors), shaders::frame, shaders::mesh_vertex},
             {color_definition(colors), shaders::frame, shaders::data_outputs, shaders::data_fragment}),
       ground_("ground data", {shaders::frame, shaders::ground_vertex},
-              {features.definitions().c_str(), shaders::frame, shaders::ground_point, shaders::ground_color, shaders::data_outputs,
-               shaders::ground_data_fragment}) {
+              {features.definitions().c_str(), shaders::frame, shaders::ground_point, shaders::ground_color,
+               shaders::data_outputs, shaders::ground_data_fragment}) {
   bind(target_, width, height);
   const std::array<const Texture*, 3> textures = {&position_and_triangle_, &normal_and_motion_x_,
                                                   &albedo_and_motion_y_};

@@ -14,7 +14,8 @@
 namespace lagomorph::render::raster {
 namespace {
 
-/// Of what the ground sends, that a pixel between corners may differ by: less than a tenth of a step of 8 bits.
+/// Of what the ground sends, that a pixel between corners may differ by: less than a tenth of a step of 8
+/// bits.
 constexpr float most_bend = 2e-3F;
 
 constexpr std::size_t picture_channels = 3;
@@ -92,16 +93,17 @@ LAGOMORPH_INLINE void ground_parts(const FrameBlock& frame, float x, float y, Ti
     const float at_x = frame.eye[0] + moves * across_x + depth * (frame.forward[0] + turns * across_x);
     const float at_z = frame.eye[2] + moves * across_z + depth * (frame.forward[2] + turns * across_z);
     const float from_x = at_x - frame.ground_at[0], from_z = at_z - frame.ground_at[2];
-    const float t =
-        std::clamp((std::sqrt(from_x * from_x + from_z * from_z) - start) / width, 0.0F, 1.0F);
+    const float t = std::clamp((std::sqrt(from_x * from_x + from_z * from_z) - start) / width, 0.0F, 1.0F);
     parts[k] = 1.0F - t * t * (3.0F - 2.0F * t);
   }
 }
 
-/// A row of a tile between the corners of the row of cells that it is in; `up` is how far above the lower of them.
+/// A row of a tile between the corners of the row of cells that it is in; `up` is how far above the lower of
+/// them.
 LAGOMORPH_INLINE void interpolate(const float* corners, std::size_t columns, float up, TileRow& row) {
   std::array<float, corners_of_tile> at{};
-  for (std::size_t i = 0; i < corners_of_tile; ++i) at[i] = corners[i] + up * (corners[columns + i] - corners[i]);
+  for (std::size_t i = 0; i < corners_of_tile; ++i)
+    at[i] = corners[i] + up * (corners[columns + i] - corners[i]);
   for (std::size_t i = 0; i < still_cells_of_tile; ++i) {
     const float step = (at[i + 1] - at[i]) * (1.0F / still_cell);
     for (std::size_t k = 0; k < still_cell; ++k)
@@ -113,7 +115,7 @@ LAGOMORPH_INLINE void interpolate(const float* corners, std::size_t columns, flo
 struct CellTile {
   const FrameBlock& frame;
   const StillCells& cells;
-  int x, y;         // of its lower left pixel
+  int x, y;  // of its lower left pixel
   bool fades;
   const float* backdrop;  // of that pixel; nullptr: there is none
   std::size_t width;      // of the picture
@@ -126,8 +128,8 @@ LAGOMORPH_INLINE void texture_parts(const CellTile& t, std::size_t j, TileRow& p
 }
 
 /// A channel of row j, of ground that does not fade.
-LAGOMORPH_INLINE void channel_row(const CellTile& t, std::size_t channel, std::size_t j, const TileRow& texture,
-                                  TileRow& row) {
+LAGOMORPH_INLINE void channel_row(const CellTile& t, std::size_t channel, std::size_t j,
+                                  const TileRow& texture, TileRow& row) {
   const float up = (static_cast<float>(j % still_cell) + 0.5F) * (1.0F / still_cell);
   const auto columns = static_cast<std::size_t>(t.cells.columns);
   const std::size_t first = channel * t.cells.corners() +
@@ -152,8 +154,8 @@ LAGOMORPH_INLINE void weights_of_row(const CellTile& t, std::size_t j, TileRow& 
 }
 
 /// One row of the picture, interleaved.
-LAGOMORPH_RENDER_SIMD void fill_picture_row(const CellTile& t, std::size_t j, const std::array<float, 3>& background,
-                                            float* picture) {
+LAGOMORPH_RENDER_SIMD void fill_picture_row(const CellTile& t, std::size_t j,
+                                            const std::array<float, 3>& background, float* picture) {
   alignas(64) TileRow parts, texture, row;
   weights_of_row(t, j, parts, texture);
   const bool is_constant = t.frame.background[3] > 0.5F;
@@ -174,11 +176,12 @@ LAGOMORPH_RENDER_SIMD void fill_picture_row(const CellTile& t, std::size_t j, co
 LAGOMORPH_INLINE std::uint16_t to_half(float x) {
   constexpr std::uint32_t least = 113U << 23U, offset = 112U << 23U;
   const auto bits = std::bit_cast<std::uint32_t>(std::min(x, 65504.0F));
-  return static_cast<std::uint16_t>(bits < least ? 0U : (bits - offset + 0xfffU + ((bits >> 13U) & 1U)) >> 13U);
+  return static_cast<std::uint16_t>(bits < least ? 0U
+                                                 : (bits - offset + 0xfffU + ((bits >> 13U) & 1U)) >> 13U);
 }
 
-LAGOMORPH_RENDER_SIMD void fill_planes_row(const CellTile& t, std::size_t j, std::size_t channels, std::size_t plane,
-                                           std::uint16_t* to) {
+LAGOMORPH_RENDER_SIMD void fill_planes_row(const CellTile& t, std::size_t j, std::size_t channels,
+                                           std::size_t plane, std::uint16_t* to) {
   alignas(64) TileRow parts, texture, row;
   weights_of_row(t, j, parts, texture);
   for (std::size_t c = 0; c < channels; ++c) {
@@ -211,7 +214,8 @@ std::vector<StillTile> still_tiles(const FrameBlock& frame, const StillCells& ce
   const int columns = cells.tile_columns(), rows = cells.tile_rows();
   std::vector<StillTile> kinds(place(0, rows, columns));
   tbb::parallel_for(0, rows, [&](int y) {
-    for (int x = 0; x < columns; ++x) kinds[place(x, y, columns)] = kind_of_tile(frame, cells, x, y, each_pixel);
+    for (int x = 0; x < columns; ++x)
+      kinds[place(x, y, columns)] = kind_of_tile(frame, cells, x, y, each_pixel);
   });
   return kinds;
 }
@@ -242,7 +246,8 @@ void fill_planes(const FrameBlock& frame, const StillCells& cells, StillTile kin
   for (std::size_t j = 0; j < rows; ++j) {
     std::uint16_t* to = still.planes.get() + place(t.x, t.y, still.width) + j * t.width;
     if (kind == StillTile::background) {
-      for (std::size_t c = 0; c < channels; ++c) std::fill_n(to + c * still.pixels(), t.count, std::uint16_t{0});
+      for (std::size_t c = 0; c < channels; ++c)
+        std::fill_n(to + c * still.pixels(), t.count, std::uint16_t{0});
     } else {
       fill_planes_row(t, j, channels, still.pixels(), to);
     }

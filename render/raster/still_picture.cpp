@@ -49,20 +49,21 @@ void read_attachment(std::size_t number, int y, int width, int height, GLenum ty
 
 StillPicture::StillPicture(const LightFeatures& features, int lights)
     : features_(features),
-      cells_program_("still cells", {shaders::full_screen_vertex},
-                     {cell_definitions().c_str(), still_definitions(features, lights).c_str(), shaders::frame,
-                      shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point, shaders::still_fragment}),
+      cells_program_(
+          "still cells", {shaders::full_screen_vertex},
+          {cell_definitions().c_str(), still_definitions(features, lights).c_str(), shaders::frame,
+           shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point, shaders::still_fragment}),
       tiles_program_("still tiles",
                      {("#define TILE " + std::to_string(tile_size) + ".0\n").c_str(), shaders::tiles_vertex},
-                     {tile_definitions, still_definitions(features, lights).c_str(), shaders::frame, shaders::brdf,
-                      shaders::sky, shaders::shade, shaders::ground_point, shaders::ground_color,
-                      shaders::still_fragment}),
+                     {tile_definitions, still_definitions(features, lights).c_str(), shaders::frame,
+                      shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point,
+                      shaders::ground_color, shaders::still_fragment}),
       backdrop_program_("backdrop", {shaders::full_screen_vertex},
                         {features.definitions().c_str(), shaders::frame, shaders::sky, shaders::ground_point,
                          shaders::ground_color, shaders::backdrop_fragment}),
       light_program_("ground's light", {shaders::full_screen_vertex},
-                     {still_definitions(features, lights).c_str(), shaders::frame, shaders::brdf, shaders::sky,
-                      shaders::shade, shaders::ground_point, shaders::ground_light_fragment}) {
+                     {still_definitions(features, lights).c_str(), shaders::frame, shaders::brdf,
+                      shaders::sky, shaders::shade, shaders::ground_point, shaders::ground_light_fragment}) {
   still_.lights = lights;
 }
 
@@ -141,7 +142,9 @@ void StillPicture::draw_picture(const FrameBlock& frame) {
 }
 
 void StillPicture::draw_cells() {
-  const auto corners = [](int pixels) { return (pixels + tile_size - 1) / tile_size * still_cells_of_tile + 1; };
+  const auto corners = [](int pixels) {
+    return (pixels + tile_size - 1) / tile_size * still_cells_of_tile + 1;
+  };
   cells_.columns = corners(still_.width), cells_.rows = corners(still_.height);
   if (!cells_target_) cells_target_.emplace(cells_.columns, cells_.rows, still_.part_count(), GL_RGBA32F);
   const Target& to = *cells_target_;
@@ -230,7 +233,8 @@ void StillPicture::read_tiles(std::span<const int> numbers) {
   const auto for_pixels = [&](const auto& put) {
     tbb::parallel_for(std::size_t{0}, numbers.size(), [&](std::size_t slot) {
       const int number = numbers[slot], beside = static_cast<int>(slot);
-      const int x = number % cells_.tile_columns() * tile_size, y = number / cells_.tile_columns() * tile_size;
+      const int x = number % cells_.tile_columns() * tile_size,
+                y = number / cells_.tile_columns() * tile_size;
       const int from_x = beside % tiles_beside * tile_size, from_y = beside / tiles_beside * tile_size;
       for (int j = 0; j < std::min(tile_size, still_.height - y); ++j) {
         for (int i = 0; i < std::min(tile_size, still_.width - x); ++i) {
