@@ -91,7 +91,7 @@ PipelineResult run_pipeline(const PipelineInput& in, Progress& progress) {
     to_draw.abandon();
     to_write.abandon();
   });
-  progress.begin(static_cast<int>(in.jobs.size()));
+  progress.begin(static_cast<int>(in.jobs.size()), 1, in.stage);
 
   workers.start([&] {  // 1. In order, each frame's state is read or stepped from the one before,
     for (const FrameJob& job : in.jobs) {

@@ -33,6 +33,7 @@ struct PipelineInput {
   const std::vector<FrameJob>& jobs;          // in order
   int threads;                                // stages at work at once, and writers
   bool log_newton;                            // into the records
+  std::string stage;                          // see Progress::begin()
 };
 
 struct PipelineResult {

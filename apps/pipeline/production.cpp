@@ -112,14 +112,14 @@ void prepare_folder(Production& p, RunInfo& info) {
 bool find_ranges(const Production& p, const sim::Model& model, Views& views, Progress& progress) {
   const bool positions = views.need_positions();
   const std::map<int, FrameRecord> frames = within(p.contents.matching, p.scene.time.frames);
-  progress.begin(static_cast<int>(frames.size()));
+  if (positions) progress.begin(static_cast<int>(frames.size()), 1, "reading");
   for (const auto& [frame, record] : frames) {
     if (stop_asked()) return false;
     sim::VecX q;
     if (positions)
       q = read_state(p.paths.state(frame), frame, p.scene.time.fps, model.mesh().vertex_count()).q;
     views.see(frame, *record.state, q);
-    progress.frame_done();
+    if (positions) progress.frame_done();
   }
   progress.end();
   for (const std::string& line : views.findings()) progress.note(line);
@@ -140,7 +140,8 @@ std::vector<FrameJob> pictures_in_ranges(const Production& p, const Views& views
   return jobs;
 }
 
-using Pipeline = std::function<PipelineResult(const std::vector<FrameJob>&)>;
+/// Of jobs, whose progress is told under the name of a stage.
+using Pipeline = std::function<PipelineResult(const std::vector<FrameJob>&, const std::string& stage)>;
 
 /// Where colours or the camera depend on the whole sequence: 1. all states, 2. the range, 3. the pictures.
 PipelineResult simulate_then_draw(Production& p, const sim::Model& model, Views& views, const Pipeline& run,
@@ -151,7 +152,7 @@ PipelineResult simulate_then_draw(Production& p, const sim::Model& model, Views&
   PipelineResult made;
   if (!states.empty()) {
     progress.note("colours, axes or camera depend on all frames: these are simulated first, then drawn");
-    made = run(states);
+    made = run(states, "simulating");
     made.stopped = stop_asked();
     if (made.error || made.stopped) return made;
     p.contents.matching = read_contents(p.paths, p.identity).matching;
@@ -160,7 +161,7 @@ PipelineResult simulate_then_draw(Production& p, const sim::Model& model, Views&
   if (made.stopped) return made;
 
   p.jobs = pictures_in_ranges(p, views);
-  const PipelineResult drawn = run(p.jobs);
+  const PipelineResult drawn = run(p.jobs, "drawing");
   p.jobs.insert(p.jobs.begin(), states.begin(), states.end());
   return {made.frames + drawn.frames, made.states, drawn.pictures, made.failure, drawn.error, false};
 }
@@ -218,13 +219,13 @@ std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress
     write_file_if_changed(p.paths.mesh(), mesh_text(model), Durable::yes);
     if (p.share) p.lock->take(RunLock::Kind::shared);
   }
-  const Pipeline run = [&](const std::vector<FrameJob>& jobs) {
+  const Pipeline run = [&](const std::vector<FrameJob>& jobs, const std::string& stage) {
     return run_pipeline({p.scene, model, surfaces, views, *integrator, p.renderer.get(), p.paths, p.identity,
-                         p.contents.matching, jobs, p.threads, p.options.log_newton},
+                         p.contents.matching, jobs, p.threads, p.options.log_newton, stage},
                         progress);
   };
   if (p.renderer && need_all_states(p.scene)) return simulate_then_draw(p, model, views, run, progress);
-  return run(p.jobs);
+  return run(p.jobs, "");
 }
 
 /// What the frames on disk and their making say of how it went. Throws what a stage threw, and

@@ -17,8 +17,9 @@ public:
 
   /// One line.
   void note(const std::string& line);
-  /// So many frames are to come, each in so many passes over all of them.
-  void begin(int frames, int passes = 1);
+  /// So many frames are to come, each in so many passes over all of them. `stage` says of what, where there are
+  /// several one after another: "drawing".
+  void begin(int frames, int passes = 1, const std::string& stage = "");
   /// In one of the passes.
   void frame_done();
   /// The bar goes.
@@ -38,6 +39,7 @@ private:
   const Style style_;
   std::mutex mutex_;
   int frames_ = 0, passes_ = 1;
+  std::string stage_;
   int steps_done_ = 0;  // frames in passes
   int told_ = 0;        // done() when the last line was printed
   bool bar_is_there_ = false;

@@ -42,6 +42,19 @@ TEST(Progress, CountsFramesWhateverThePasses) {
   EXPECT_NE(text.find("\nframe 20 of 20, "), std::string::npos);
 }
 
+TEST(Progress, NamesAStage) {
+  const std::string text = said(false, [](Progress& progress) {
+    progress.begin(2, 1, "drawing");
+    for (int i = 0; i < 2; ++i) progress.frame_done();
+    progress.end();
+    progress.begin(1);
+    progress.frame_done();
+  });
+  EXPECT_TRUE(text.starts_with("drawing frame 1 of 2, ")) << text;
+  EXPECT_NE(text.find("\ndrawing frame 2 of 2, "), std::string::npos) << text;
+  EXPECT_NE(text.find("\nframe 1 of 1, "), std::string::npos) << text;
+}
+
 TEST(Progress, IsSilentWhenQuiet) {
   EXPECT_EQ(said(true,
                  [](Progress& progress) {
