@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "render/path/microfacet.h"
 #include "render/path/path_batch.h"
