@@ -225,7 +225,9 @@ void LightMaps::put_parts(std::size_t i, const LightView& whole, const LightFram
   least_map_ = std::min(least_map_, size);
   for (int k = 0; k < split.count(); ++k) {
     LightBlock part = part_of(light, split, k);
-    const LightView view = fit_light_view(Vec3(part.position.head<3>()), frame, positions, size);
+    // The shadow of what is nearer is as wide as the light shines, and the map's depths are finer without.
+    const float nearest = 0.5F * std::max(part.right.w(), part.up.w());
+    const LightView view = fit_light_view(Vec3(part.position.head<3>()), frame, nearest, positions, size);
     part.map = view.map;
     part.depth = view.depth;
     views_.push_back(view);

@@ -10,7 +10,7 @@ namespace lagomorph::render::raster {
 namespace {
 
 constexpr float widest_whole = 0.6F;  // of the distance from the nearest mesh; what is not wider is not split
-constexpr float widest_part = 0.4F;   // likewise
+constexpr float widest_part = 0.3F;   // likewise
 constexpr int most_parts = 6;         // along a side
 
 /// From the light's middle to the nearest triangle's box of those that the light shines on; infinite if none.

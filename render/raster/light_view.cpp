@@ -30,10 +30,10 @@ Interval snapped(const Interval& range) {
 }  // namespace
 
 LightView fit_light_view(const AreaLight& light, std::span<const std::vector<Vec3>> positions, int map_size) {
-  return fit_light_view(light.position, light_frame(light), positions, map_size);
+  return fit_light_view(light.position, light_frame(light), 0.0F, positions, map_size);
 }
 
-LightView fit_light_view(const Vec3& from, const LightFrame& frame,
+LightView fit_light_view(const Vec3& from, const LightFrame& frame, float nearest,
                          std::span<const std::vector<Vec3>> positions, int map_size) {
   float farthest = 0.0F;
   for (const std::vector<Vec3>& mesh : positions) {
@@ -41,8 +41,8 @@ LightView fit_light_view(const Vec3& from, const LightFrame& frame,
   }
   LightView view;
   view.size = map_size;
-  if (!(farthest > 0.0F)) return view;
-  const float limit = farthest * nearest_of_farthest;
+  if (!(farthest > nearest)) return view;
+  const float limit = std::max(farthest * nearest_of_farthest, nearest);
   Interval x, y, z;
   for (const std::vector<Vec3>& mesh : positions) {
     for (const Vec3& p : mesh) {

@@ -19,8 +19,8 @@ struct LightView {
 /// Fits the view around all positions. The borders are multiples of a sixteenth of the view or so, so that
 /// they stand still while the meshes move a little: a pure function of the positions all the same.
 LightView fit_light_view(const AreaLight&, std::span<const std::vector<Vec3>> positions, int map_size);
-/// From another point of the light's plane.
-LightView fit_light_view(const Vec3& from, const LightFrame&, std::span<const std::vector<Vec3>> positions,
-                         int map_size);
+/// From another point of the light's plane; what is nearer to that than `nearest` [m] is cut off.
+LightView fit_light_view(const Vec3& from, const LightFrame&, float nearest,
+                         std::span<const std::vector<Vec3>> positions, int map_size);
 
 }  // namespace lagomorph::render::raster

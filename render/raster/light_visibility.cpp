@@ -165,6 +165,10 @@ struct alignas(64) Search {
   std::array<int, lanes> lit, inside;  // not behind the surface; within the map
 };
 
+/// Half of it, as a tangent. What is nearer to the light than its width, as a floor that goes on beneath it,
+/// is found only before it: of the taps of a wider search few would be left for all that is farther away.
+constexpr float widest_search = 0.5F;
+
 // Over so many texels the dots of what is seen through even out.
 template <bool see_through>
 constexpr float least_reach = see_through ? 4.0F : 1.0F;
@@ -213,8 +217,8 @@ LAGOMORPH_INLINE void look_from_light(const DepthMaps& maps, Index part, const R
     t.rise[l] = 1.0F / (low_part * t.closest * std::max(highest, 1e-6F));
     search.distance[l] = std::max(qz, 0.0F);
     const float farther = std::max(light.depth[2] - t.reciprocal[l], 0.0F);
-    search.reach_x[l] = half_x * farther + t.least_x;
-    search.reach_y[l] = half_y * farther + t.least_y;
+    search.reach_x[l] = std::min(half_x * farther, widest_search) + t.least_x;
+    search.reach_y[l] = std::min(half_y * farther, widest_search) + t.least_y;
     search.inside[l] =
         static_cast<int>(qz > 0.0F) & static_cast<int>(t.reciprocal[l] < light.depth[2]) &
         static_cast<int>((t.tangent_at_x[l] - search.reach_x[l]) * t.scale_x + t.offset_x < size) &
@@ -243,7 +247,7 @@ LAGOMORPH_INLINE void blockers_of(const DepthMaps& maps, Index part, const Recei
 
 template <bool see_through>
 LAGOMORPH_INLINE void shadow_of(const DepthMaps& maps, Index part, const Receivers& at, const Blockers& found,
-                                Shadow& shadow) {
+                                float spacing, Shadow& shadow) {
   shadow.blocked.fill(0.0F);
   shadow.share.fill(0.0F);
   alignas(64) std::array<int, lanes> wanted;
@@ -259,7 +263,8 @@ LAGOMORPH_INLINE void shadow_of(const DepthMaps& maps, Index part, const Receive
     search.taps.rise[l] *= t.closest / std::max(nearer, 1e-3F * t.closest);
     spread_x[l] = std::max(t.half_x * nearer, t.least_x);
     spread_y[l] = std::max(t.half_y * nearer, t.least_y);
-    const float pixels = std::min(spread_x[l], spread_y[l]) * search.distance[l] / at.footprint[l];
+    const float pixels =
+        std::min(spread_x[l], spread_y[l]) * search.distance[l] / (spacing * at.footprint[l]);
     shadow.share[l] = std::min(std::max(0.5F * pixels - 0.5F, 0.0F), 1.0F);
   }
   add_taps<see_through, false>(t, lattice(taps), taps, spread_x, spread_y, slack_of(at).filter, wanted, total,
@@ -323,9 +328,9 @@ LAGOMORPH_RENDER_SIMD void find_blockers(const DepthMaps& maps, Index part, cons
 }
 
 LAGOMORPH_RENDER_SIMD void filter_shadow(const DepthMaps& maps, Index part, const Receivers& at,
-                                         const Blockers& found, Shadow& shadow) {
-  maps.see_through ? shadow_of<true>(maps, part, at, found, shadow)
-                   : shadow_of<false>(maps, part, at, found, shadow);
+                                         const Blockers& found, float spacing, Shadow& shadow) {
+  maps.see_through ? shadow_of<true>(maps, part, at, found, spacing, shadow)
+                   : shadow_of<false>(maps, part, at, found, spacing, shadow);
 }
 
 }  // namespace lagomorph::render::raster

@@ -25,12 +25,14 @@ struct alignas(64) Blockers {
 };
 void find_blockers(const DepthMaps&, std::size_t part, const Receivers&, Blockers&);
 
-/// Over the taps of the filter, which is as wide as what was found says.
+/// Over the taps of the filter, which is as wide as what was found says. `spacing`: of the receivers
+/// [pixels].
 struct alignas(64) Shadow {
   Lanes blocked;  // part of them
   Lanes share;    // in [0, 1], of neighbours: none where the penumbra is hardly wider than a pixel
 };
-void filter_shadow(const DepthMaps&, std::size_t part, const Receivers&, const Blockers&, Shadow&);
+void filter_shadow(const DepthMaps&, std::size_t part, const Receivers&, const Blockers&, float spacing,
+                   Shadow&);
 
 /// Irradiance that a part of a light sends to each receiver, up to a factor that is the same for all parts of
 /// the light: of what is above the receiver's horizon, and of that what the ground does not hide.

@@ -84,7 +84,7 @@ std::vector<Span> spans_of(const ReceiverBlocks& at) {
 constexpr float unlike_all = -3e9F;
 
 /// Of a part of a light, which soft_shadow() puts together.
-void shadow_of_part(const DepthMaps& maps, std::size_t part, const ReceiverBlocks& at,
+void shadow_of_part(const DepthMaps& maps, std::size_t part, const ReceiverBlocks& at, float spacing,
                     std::vector<float>& seen) {
   const int width = at.width(), height = at.height();
   Plane depth(width, height, unlike_all), tolerance(width, height, 0.0F), nearness(width, height, 0.0F),
@@ -116,7 +116,7 @@ void shadow_of_part(const DepthMaps& maps, std::size_t part, const ReceiverBlock
     shared_nearness.get(x, y, found.nearness);
     shared_taps.get(x, y, found.taps);
     Shadow shadow;
-    filter_shadow(maps, part, r, found, shadow);
+    filter_shadow(maps, part, r, found, spacing, shadow);
     blocked.put(x, y, shadow.blocked);
     share.put(x, y, shadow.share);
   });
@@ -142,11 +142,12 @@ void soft_shadow(const FrameBlock& frame, const DepthMaps& maps, int light, cons
                  std::vector<float>& seen) {
   const LightParts& parts = maps.lights[static_cast<std::size_t>(light)];
   if (parts.count == 1 && !parts.below_ground) {
-    shadow_of_part(maps, parts.first, at, seen);
+    shadow_of_part(maps, parts.first, at, 1.0F, seen);
     return;
   }
   std::vector<std::vector<float>> of_parts(parts.count);
-  for (std::size_t k = 0; k < parts.count; ++k) shadow_of_part(maps, parts.first + k, at, of_parts[k]);
+  for (std::size_t k = 0; k < parts.count; ++k)
+    shadow_of_part(maps, parts.first + k, at, static_cast<float>(at.step), of_parts[k]);
   const auto width = static_cast<std::size_t>(at.width());
   seen.assign(width * static_cast<std::size_t>(at.height()), 1.0F);
   at.for_each([&](int x, int y, const Receivers& r) {
