@@ -277,18 +277,23 @@ void draw_sky_depths(const FrameBlock& frame, std::span<const Caster> meshes, in
   });
 }
 
-void draw_light_depths(std::span<const Mat4> clip_from_world, std::span<const Caster> meshes, int size,
+void draw_light_depths(std::span<const LightView> views, std::span<const Caster> meshes,
                        std::vector<DepthMap>& maps) {
-  constexpr int bands = 4;
-  maps.resize(clip_from_world.size());
-  std::vector<SeenCaster> seen(clip_from_world.size() * meshes.size());
+  const std::size_t bands = views.size() < 8 ? 4 : 1;  // of a map, for few to keep the threads busy
+  maps.resize(views.size());
+  std::vector<SeenCaster> seen(views.size() * meshes.size());
   tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
-    seen[i] = seen_from_light(meshes[i % meshes.size()], clip_from_world[i / meshes.size()], size);
+    const LightView& view = views[i / meshes.size()];
+    seen[i] = seen_from_light(meshes[i % meshes.size()], view.clip_from_world, view.size);
   });
-  for (DepthMap& map : maps) map.resize(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const auto size = static_cast<std::size_t>(views[i].size);
+    maps[i].resize(size * size);
+  }
   tbb::parallel_for(std::size_t{0}, bands * maps.size(), [&](std::size_t i) {
     const std::size_t light = i / bands;
-    const int band = static_cast<int>(i % bands), rows = size / bands;
+    const int size = views[light].size, band = static_cast<int>(i % bands),
+              rows = size / static_cast<int>(bands);
     DepthMap& map = maps[light];
     std::fill_n(map.begin() + static_cast<std::ptrdiff_t>(band) * rows * size,
                 static_cast<std::ptrdiff_t>(rows) * size, no_depth);

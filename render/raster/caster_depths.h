@@ -5,6 +5,7 @@
 
 #include "render/raster/depth_maps.h"
 #include "render/raster/frame_block.h"
+#include "render/raster/light_view.h"
 #include "render/render_scene.h"
 
 namespace lagomorph::render::raster {
@@ -26,9 +27,8 @@ struct Caster {
 void draw_sky_depths(const FrameBlock&, std::span<const Caster>, int size, std::vector<DepthMap>&,
                      std::vector<DepthMap>* from_below = nullptr);
 
-/// One map a light in perspective, depths from near to far; what is nearer than near is cut off. `size` is a
-/// multiple of 256.
-void draw_light_depths(std::span<const Mat4> clip_from_world, std::span<const Caster>, int size,
-                       std::vector<DepthMap>&);
+/// One map a view in perspective, depths from near to far; what is nearer than near is cut off. Their sizes
+/// are multiples of 256.
+void draw_light_depths(std::span<const LightView>, std::span<const Caster>, std::vector<DepthMap>&);
 
 }  // namespace lagomorph::render::raster

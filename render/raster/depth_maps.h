@@ -3,8 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "render/raster/frame_block.h"
 #include "render/raster/pixel_block.h"
 
 namespace lagomorph::render::raster {
@@ -14,10 +16,25 @@ namespace lagomorph::render::raster {
 using DepthMap = std::vector<std::uint16_t>;
 constexpr std::uint16_t no_depth = 65535;  // nothing is there
 
+/// A light as a depth map sees from its middle, or one of the equal rectangles that a large light is split
+/// into, see light_parts.h.
+struct LightPart {
+  LightBlock light;
+  int map_size;                  // [texels]
+  int search_taps, filter_taps;  // of each of a quad's pixels
+};
+
+/// Of a light, among those of all.
+struct LightParts {
+  std::size_t first, count;
+  bool below_ground;  // some of it is, which the ground hides
+};
+
 /// Those of one frame.
 struct DepthMaps {
-  int light_size = 0;            // [texels]
-  std::vector<DepthMap> lights;  // one a light
+  std::vector<LightParts> lights;
+  std::vector<LightPart> parts;
+  std::vector<DepthMap> parts_maps;  // one each
   int sky_size = 0;
   std::vector<DepthMap> sky;             // one a direction; none: there are no meshes
   std::vector<DepthMap> sky_from_below;  // likewise, for the ground

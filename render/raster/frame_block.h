@@ -59,7 +59,6 @@ struct FrameBlock {
   Vec4 ground_map;      // world xz to the ground map's [0, 1]: scale x, offset zw; y: size of a texel [m]
   Vec4 sky_map;         // xyz centre [m], w 1 / radius of the meshes' sphere [1/m]
   Vec4 counts;          // lights, 0, 1 where there are meshes, size of the ground map
-  Vec4 shadow_taps;     // of the search for blockers, of the filter; only the CPU reads them
   Vec4 sky_picture;     // of a map: turns of its middle from -z, level of detail at a pixel, strength
   std::array<LightBlock, most_lights> lights;
   std::array<SkyDirectionBlock, most_sky_directions> sky;

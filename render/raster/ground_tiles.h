@@ -20,7 +20,7 @@ struct TileRun {
 };
 
 /// All tiles of the drawn rectangle in which the ground may be seen under a shadow of a mesh (a grid a light)
-/// or in the ground's map, both of this frame.
+/// or in the ground's map, both of this frame. `shadow_map` is the size of the smallest map of a light.
 std::vector<TileRun> touched_tiles(const FrameBlock&, std::span<const CasterGrid>, int shadow_map,
                                    const PixelRectangle& drawn);
 

@@ -19,6 +19,8 @@ constexpr int sky_map_size = 256;
 constexpr int ground_map_size = 128;
 constexpr int bounce_map_size = ground_map_size / 2;
 constexpr float search_taps = 16.0F;  // of each of a quad's pixels
+constexpr float least_taps = 8.0F;    // of each part of a light
+constexpr int least_map_size = 256;
 constexpr int sky_table_size = 64;
 constexpr int coat_table_size = 32;
 constexpr int widest_sky_picture = 8192;  // 512 MB with its levels
@@ -118,7 +120,8 @@ void LightMaps::set_sky_map(const RenderScene& scene, FrameBlock& block) {
   check_gl("the sky's map");
 }
 
-void LightMaps::set_scene(const RenderScene& scene, const LightFeatures& features, FrameBlock& block) {
+void LightMaps::set_scene(const RenderScene& scene, std::span<const Mesh> meshes,
+                          const LightFeatures& features, FrameBlock& block) {
   if (!ground_program_ || !(features == features_)) {
     features_ = features;
     using Parts = Program::Parts;
@@ -127,6 +130,7 @@ void LightMaps::set_scene(const RenderScene& scene, const LightFeatures& feature
                             Parts{features.definitions().c_str(), shaders::frame, shaders::brdf, shaders::sky,
                                   shaders::ground_color, shaders::ground_map_fragment});
   }
+  splits_.assign(scene.lights.size(), {});
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const AreaLight& light = scene.lights[i];
     const LightFrame frame = light_frame(light);
@@ -136,6 +140,7 @@ void LightMaps::set_scene(const RenderScene& scene, const LightFeatures& feature
     b.up = vec4(frame.up, 0.5F * light.size.y());
     const std::size_t first_sun = scene.lights.size() - scene.suns.size();
     b.normal = vec4(frame.normal, i < first_sun ? 0.0F : solid_angle(scene.suns[i - first_sun]));
+    if (i < first_sun) splits_[i] = split_of(light, meshes, scene.ground);
     const bool disc = features.sun_discs && i >= first_sun && scene.suns[i - first_sun].visible;
     b.radiance = vec4(Color(light.color * light.radiance), disc ? 1.0F : 0.0F);
   }
@@ -157,7 +162,6 @@ void LightMaps::set_scene(const RenderScene& scene, const LightFeatures& feature
   block.ground_at = vec4(Vec3(g.center.x(), g.height, g.center.z()), 0.0F);
   block.counts =
       Vec4(static_cast<float>(scene.lights.size()), 0.0F, 0.0F, static_cast<float>(ground_map_size));
-  block.shadow_taps = Vec4(search_taps, static_cast<float>(settings_.shadow_samples), 0.0F, 0.0F);
 }
 
 void LightMaps::show_ground(bool shown, FrameBlock& block) {
@@ -167,13 +171,16 @@ void LightMaps::show_ground(bool shown, FrameBlock& block) {
 
 void LightMaps::fit(const RenderScene& scene, std::span<const std::vector<Vec3>> positions,
                     std::span<const MeshBuffers> meshes, FrameBlock& block) {
-  light_views_.clear();
+  views_.clear();
+  depths_.lights.clear();
+  depths_.parts.clear();
+  least_map_ = settings_.shadow_map;
   casters_.assign(scene.lights.size(), {});
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const LightView view = fit_light_view(scene.lights[i], positions, settings_.shadow_map);
     block.lights[i].map = view.map;
     block.lights[i].depth = view.depth;
-    light_views_.push_back(view.clip_from_world);
+    put_parts(i, view, light_frame(scene.lights[i]), positions, block.lights[i]);
     for (std::size_t k = 0; k < meshes.size(); ++k)
       add_casters(scene.lights[i], view, positions[k], meshes[k].triangles(), casters_[i]);
   }
@@ -193,9 +200,40 @@ void LightMaps::fit(const RenderScene& scene, std::span<const std::vector<Vec3>>
                           0.5F - scale * sphere.center.x(), 0.5F - scale * sphere.center.z());
 }
 
+/// What the maps of light i see; `whole` is the view from its middle.
+void LightMaps::put_parts(std::size_t i, const LightView& whole, const LightFrame& frame,
+                          std::span<const std::vector<Vec3>> positions, const LightBlock& light) {
+  const LightSplit& split = splits_[i];
+  const auto count = static_cast<std::size_t>(split.count());
+  const auto taps = [&](float of_whole) {
+    const float each = std::ceil(of_whole / std::sqrt(static_cast<float>(count)));
+    return static_cast<int>(std::max(each, std::min(of_whole, least_taps)));
+  };
+  const int search = taps(search_taps), filter = taps(static_cast<float>(settings_.shadow_samples));
+  depths_.lights.push_back({depths_.parts.size(), count, split.below_ground});
+  if (count == 1) {
+    views_.push_back(whole);
+    depths_.parts.push_back({light, whole.size, search, filter});
+    return;
+  }
+  // The more there are, the less it takes for all of their texels together to show the same.
+  const auto along = static_cast<unsigned>(std::max(split.across, split.up));
+  const int size = std::max(settings_.shadow_map / static_cast<int>(std::bit_ceil(along)), least_map_size);
+  least_map_ = std::min(least_map_, size);
+  for (int k = 0; k < split.count(); ++k) {
+    LightBlock part = part_of(light, split, k);
+    // The shadow of what is nearer is as wide as the light shines, and the map's depths are finer without.
+    const float nearest = 0.5F * std::max(part.right.w(), part.up.w());
+    const LightView view = fit_light_view(Vec3(part.position.head<3>()), frame, nearest, positions, size);
+    part.map = view.map;
+    part.depth = view.depth;
+    views_.push_back(view);
+    depths_.parts.push_back({part, size, search, filter});
+  }
+}
+
 void LightMaps::draw(std::span<const MeshBuffers> meshes, std::span<const std::vector<Vec3>> positions,
                      const FrameBlock& block) {
-  depths_.light_size = settings_.shadow_map;
   depths_.sky_size = sky_map_size;
   depths_.see_through = features_.see_through;
   depths_.sky_is_map = features_.sky_map;
@@ -206,7 +244,7 @@ void LightMaps::draw(std::span<const MeshBuffers> meshes, std::span<const std::v
     casters.push_back(
         {positions[k], mesh.triangles(), mesh.closed(), mesh.material().opacity, mesh.body_id()});
   }
-  draw_light_depths(light_views_, casters, settings_.shadow_map, depths_.lights);
+  draw_light_depths(views_, casters, depths_.parts_maps);
   if (has_meshes_) {
     draw_sky_depths(block, casters, sky_map_size, depths_.sky, ground_ ? &depths_.sky_from_below : nullptr);
   } else {

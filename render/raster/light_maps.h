@@ -8,6 +8,8 @@
 #include "render/raster/caster_grid.h"
 #include "render/raster/frame_block.h"
 #include "render/raster/gl_objects.h"
+#include "render/raster/light_parts.h"
+#include "render/raster/light_view.h"
 #include "render/raster/lit_texture.h"
 #include "render/raster/mesh_buffers.h"
 #include "render/raster/programs.h"
@@ -25,15 +27,17 @@ public:
   explicit LightMaps(const RasterSettings&);
 
   /// Lights, sky and ground of the scene (with_stand_ins()) into the frame's block, for shaders with these
-  /// features.
-  void set_scene(const RenderScene&, const LightFeatures&, FrameBlock&);
+  /// features; with the scene's meshes.
+  void set_scene(const RenderScene&, std::span<const Mesh>, const LightFeatures&, FrameBlock&);
   /// Whether the ground is drawn; what is fitted is to be drawn again.
   void show_ground(bool shown, FrameBlock&);
   /// Fits the maps to new positions and says so in the frame's block.
   void fit(const RenderScene&, std::span<const std::vector<Vec3>> positions,
            std::span<const MeshBuffers> meshes, FrameBlock&);
-  /// Where the meshes are in the lights' maps, a grid each.
+  /// Where the meshes are in the lights' views, a grid each.
   std::span<const CasterGrid> casters() const { return casters_; }
+  /// Size of the smallest of the lights' maps [texels].
+  int least_map() const { return least_map_; }
   /// Draws the maps of what was fitted; the block is bound.
   void draw(std::span<const MeshBuffers> meshes, std::span<const std::vector<Vec3>> positions,
             const FrameBlock&);
@@ -46,6 +50,8 @@ public:
 
 private:
   void set_sky_map(const RenderScene&, FrameBlock&);
+  void put_parts(std::size_t light, const LightView& whole, const LightFrame&,
+                 std::span<const std::vector<Vec3>> positions, const LightBlock&);
   void fill_bounce_levels();
 
   RasterSettings settings_;
@@ -60,12 +66,14 @@ private:
   std::optional<SkyTextures> sky_textures_;
   Framebuffer ground_target_;
   VertexArray no_attributes_;
-  std::vector<Mat4> light_views_;
+  std::vector<LightSplit> splits_;  // of the lights
+  std::vector<LightView> views_;    // of all their parts
   std::vector<CasterGrid> casters_;
   DepthMaps depths_;
   LitPixels ground_lit_;
   GroundSeen ground_seen_;
   std::vector<Vec4> bounce_;
+  int least_map_ = 0;
   bool has_meshes_ = false;
   bool ground_ = false;
 };

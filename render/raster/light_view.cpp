@@ -30,18 +30,23 @@ Interval snapped(const Interval& range) {
 }  // namespace
 
 LightView fit_light_view(const AreaLight& light, std::span<const std::vector<Vec3>> positions, int map_size) {
-  const LightFrame frame = light_frame(light);
+  return fit_light_view(light.position, light_frame(light), 0.0F, positions, map_size);
+}
+
+LightView fit_light_view(const Vec3& from, const LightFrame& frame, float nearest,
+                         std::span<const std::vector<Vec3>> positions, int map_size) {
   float farthest = 0.0F;
   for (const std::vector<Vec3>& mesh : positions) {
-    for (const Vec3& p : mesh) farthest = std::max(farthest, (p - light.position).dot(frame.normal));
+    for (const Vec3& p : mesh) farthest = std::max(farthest, (p - from).dot(frame.normal));
   }
   LightView view;
-  if (!(farthest > 0.0F)) return view;
-  const float limit = farthest * nearest_of_farthest;
+  view.size = map_size;
+  if (!(farthest > nearest)) return view;
+  const float limit = std::max(farthest * nearest_of_farthest, nearest);
   Interval x, y, z;
   for (const std::vector<Vec3>& mesh : positions) {
     for (const Vec3& p : mesh) {
-      const Vec3 d = p - light.position;
+      const Vec3 d = p - from;
       const float along = std::max(d.dot(frame.normal), limit);
       x.add(std::clamp(d.dot(frame.right) / along, -widest_tangent, widest_tangent));
       y.add(std::clamp(d.dot(frame.up) / along, -widest_tangent, widest_tangent));
@@ -57,7 +62,7 @@ LightView fit_light_view(const AreaLight& light, std::span<const std::vector<Vec
   eye.block<1, 3>(0, 0) = frame.right.transpose();
   eye.block<1, 3>(1, 0) = frame.up.transpose();
   eye.block<1, 3>(2, 0) = frame.normal.transpose();
-  eye.block<3, 1>(0, 3) = -(eye.block<3, 3>(0, 0) * light.position);
+  eye.block<3, 1>(0, 3) = -(eye.block<3, 3>(0, 0) * from);
   Mat4 clip = Mat4::Zero();
   clip(0, 0) = 2.0F / x.size();
   clip(0, 2) = -(x.low + x.high) / x.size();

@@ -165,18 +165,22 @@ struct alignas(64) Search {
   std::array<int, lanes> lit, inside;  // not behind the surface; within the map
 };
 
+/// Half of it, as a tangent. What is nearer to the light than its width, as a floor that goes on beneath it,
+/// is found only before it: of the taps of a wider search few would be left for all that is farther away.
+constexpr float widest_search = 0.5F;
+
 // Over so many texels the dots of what is seen through even out.
 template <bool see_through>
 constexpr float least_reach = see_through ? 4.0F : 1.0F;
 
 template <bool see_through>
-LAGOMORPH_INLINE void look_from_light(const FrameBlock& frame, const DepthMaps& maps, int number,
-                                      const Receivers& at, Search& search) {
-  const LightBlock& light = frame.lights[static_cast<Index>(number)];
-  const auto size = static_cast<float>(maps.light_size);
+LAGOMORPH_INLINE void look_from_light(const DepthMaps& maps, Index part, const Receivers& at,
+                                      Search& search) {
+  const LightBlock& light = maps.parts[part].light;
+  const auto size = static_cast<float>(maps.parts[part].map_size);
   LightTaps& t = search.taps;
-  t.map = maps.lights[static_cast<Index>(number)].data();
-  t.size = maps.light_size;
+  t.map = maps.parts_maps[part].data();
+  t.size = maps.parts[part].map_size;
   t.scale_x = size * light.map[0], t.scale_y = size * light.map[1];
   t.offset_x = size * light.map[2], t.offset_y = size * light.map[3];
   t.tangent_x = 1.0F / t.scale_x, t.tangent_y = 1.0F / t.scale_y;
@@ -213,8 +217,8 @@ LAGOMORPH_INLINE void look_from_light(const FrameBlock& frame, const DepthMaps& 
     t.rise[l] = 1.0F / (low_part * t.closest * std::max(highest, 1e-6F));
     search.distance[l] = std::max(qz, 0.0F);
     const float farther = std::max(light.depth[2] - t.reciprocal[l], 0.0F);
-    search.reach_x[l] = half_x * farther + t.least_x;
-    search.reach_y[l] = half_y * farther + t.least_y;
+    search.reach_x[l] = std::min(half_x * farther, widest_search) + t.least_x;
+    search.reach_y[l] = std::min(half_y * farther, widest_search) + t.least_y;
     search.inside[l] =
         static_cast<int>(qz > 0.0F) & static_cast<int>(t.reciprocal[l] < light.depth[2]) &
         static_cast<int>((t.tangent_at_x[l] - search.reach_x[l]) * t.scale_x + t.offset_x < size) &
@@ -225,10 +229,9 @@ LAGOMORPH_INLINE void look_from_light(const FrameBlock& frame, const DepthMaps& 
 }
 
 template <bool see_through>
-LAGOMORPH_INLINE void blockers_of(const FrameBlock& frame, const DepthMaps& maps, int light,
-                                  const Receivers& at, Blockers& found) {
+LAGOMORPH_INLINE void blockers_of(const DepthMaps& maps, Index part, const Receivers& at, Blockers& found) {
   Search search;
-  look_from_light<see_through>(frame, maps, light, at, search);
+  look_from_light<see_through>(maps, part, at, search);
   alignas(64) std::array<int, lanes> wanted;
   for (Index l = 0; l < all; ++l) {
     found.depth[l] = search.lit[l] != 0 ? at.depth[l] : -1e9F;
@@ -237,30 +240,31 @@ LAGOMORPH_INLINE void blockers_of(const FrameBlock& frame, const DepthMaps& maps
   found.nearness.fill(0.0F);
   found.taps.fill(0.0F);
   if (!any(wanted)) return;
-  const int taps = static_cast<int>(frame.shadow_taps[0]);
+  const int taps = maps.parts[part].search_taps;
   add_taps<see_through, true>(search.taps, lattice(taps), taps, search.reach_x, search.reach_y,
                               slack_of(at).search, wanted, found.nearness, found.taps);
 }
 
 template <bool see_through>
-LAGOMORPH_INLINE void shadow_of(const FrameBlock& frame, const DepthMaps& maps, int number,
-                                const Receivers& at, const Blockers& found, Shadow& shadow) {
+LAGOMORPH_INLINE void shadow_of(const DepthMaps& maps, Index part, const Receivers& at, const Blockers& found,
+                                float spacing, Shadow& shadow) {
   shadow.blocked.fill(0.0F);
   shadow.share.fill(0.0F);
   alignas(64) std::array<int, lanes> wanted;
   for (Index l = 0; l < all; ++l) wanted[l] = static_cast<int>(found.taps[l] > 0.0F);
   if (!any(wanted)) return;
   Search search;
-  look_from_light<see_through>(frame, maps, number, at, search);
+  look_from_light<see_through>(maps, part, at, search);
   const LightTaps& t = search.taps;
-  const int taps = static_cast<int>(frame.shadow_taps[1]);
+  const int taps = maps.parts[part].filter_taps;
   alignas(64) Lanes spread_x, spread_y, total, blocked;
   for (Index l = 0; l < all; ++l) {
     const float nearer = found.nearness[l] / std::max(found.taps[l], 1e-12F) - t.reciprocal[l];
     search.taps.rise[l] *= t.closest / std::max(nearer, 1e-3F * t.closest);
     spread_x[l] = std::max(t.half_x * nearer, t.least_x);
     spread_y[l] = std::max(t.half_y * nearer, t.least_y);
-    const float pixels = std::min(spread_x[l], spread_y[l]) * search.distance[l] / at.footprint[l];
+    const float pixels =
+        std::min(spread_x[l], spread_y[l]) * search.distance[l] / (spacing * at.footprint[l]);
     shadow.share[l] = std::min(std::max(0.5F * pixels - 0.5F, 0.0F), 1.0F);
   }
   add_taps<see_through, false>(t, lattice(taps), taps, spread_x, spread_y, slack_of(at).filter, wanted, total,
@@ -268,18 +272,65 @@ LAGOMORPH_INLINE void shadow_of(const FrameBlock& frame, const DepthMaps& maps, 
   for (Index l = 0; l < all; ++l) shadow.blocked[l] = blocked[l] / std::max(total[l], 1e-12F);
 }
 
-}  // namespace
-
-LAGOMORPH_RENDER_SIMD void find_blockers(const FrameBlock& frame, const DepthMaps& maps, int light,
-                                         const Receivers& at, Blockers& found) {
-  maps.see_through ? blockers_of<true>(frame, maps, light, at, found)
-                   : blockers_of<false>(frame, maps, light, at, found);
+/// See light_of_part(); `hides`: some of the part is below the ground.
+template <bool hides>
+LAGOMORPH_INLINE void light_of(const FrameBlock& frame, const LightBlock& light, const Receivers& at,
+                               PartLight& found) {
+  constexpr int points = 2;  // along a side
+  const float half_x = light.right[3] / points, half_y = light.up[3] / points;
+  const float half_height = std::abs(half_x * light.right[1]) + std::abs(half_y * light.up[1]);
+  alignas(64) Lanes whole{}, past{};
+  for (int k = 0; k < points * points; ++k) {
+    const float i = half_x * static_cast<float>(2 * (k % points) + 1 - points);
+    const float j = half_y * static_cast<float>(2 * (k / points) + 1 - points);
+    const float px = light.position[0] + i * light.right[0] + j * light.up[0];
+    const float py = light.position[1] + i * light.right[1] + j * light.up[1];
+    const float pz = light.position[2] + i * light.right[2] + j * light.up[2];
+    // Of the point's quarter, what is below the ground.
+    const float over = 0.5F * (py - frame.ground[0]) / std::max(half_height, 1e-6F);
+    const float below = std::min(std::max(0.5F - over, 0.0F), 1.0F);
+    for (Index l = 0; l < all; ++l) {
+      const float dx = px - at.point.x[l], dy = py - at.point.y[l], dz = pz - at.point.z[l];
+      const float square = dx * dx + dy * dy + dz * dz;
+      const float height = at.normal.x[l] * dx + at.normal.y[l] * dy + at.normal.z[l] * dz;
+      // The light's own cosine is one distance, that from its plane, over the point's.
+      const float weight = std::max(height, 0.0F) / std::max(square * square, 1e-12F);
+      whole[l] += weight;
+      if constexpr (hides) {
+        const float above = at.point.y[l] - frame.ground[0];
+        const float way = std::min(std::max(above, 0.0F) / std::max(-dy, 1e-6F), 1.0F);
+        const float gx = at.point.x[l] + way * dx - frame.ground_at[0];
+        const float gz = at.point.z[l] + way * dz - frame.ground_at[2];
+        const float fade = fade_at(std::sqrt(gx * gx + gz * gz), frame.ground[2], frame.ground[1]);
+        past[l] += weight * (above < 0.0F ? 1.0F : 1.0F - below * (1.0F - fade));
+      } else {
+        past[l] += weight;
+      }
+    }
+  }
+  found.whole = whole;
+  found.past_ground = past;
 }
 
-LAGOMORPH_RENDER_SIMD void filter_shadow(const FrameBlock& frame, const DepthMaps& maps, int light,
-                                         const Receivers& at, const Blockers& found, Shadow& shadow) {
-  maps.see_through ? shadow_of<true>(frame, maps, light, at, found, shadow)
-                   : shadow_of<false>(frame, maps, light, at, found, shadow);
+}  // namespace
+
+LAGOMORPH_RENDER_SIMD void light_of_part(const FrameBlock& frame, const LightBlock& light,
+                                         const Receivers& at, PartLight& found) {
+  const float low =
+      light.position[1] - std::abs(light.right[3] * light.right[1]) - std::abs(light.up[3] * light.up[1]);
+  const bool hides = frame.ground[3] > 0.5F && !at.is_ground && low < frame.ground[0];
+  hides ? light_of<true>(frame, light, at, found) : light_of<false>(frame, light, at, found);
+}
+
+LAGOMORPH_RENDER_SIMD void find_blockers(const DepthMaps& maps, Index part, const Receivers& at,
+                                         Blockers& found) {
+  maps.see_through ? blockers_of<true>(maps, part, at, found) : blockers_of<false>(maps, part, at, found);
+}
+
+LAGOMORPH_RENDER_SIMD void filter_shadow(const DepthMaps& maps, Index part, const Receivers& at,
+                                         const Blockers& found, float spacing, Shadow& shadow) {
+  maps.see_through ? shadow_of<true>(maps, part, at, found, spacing, shadow)
+                   : shadow_of<false>(maps, part, at, found, spacing, shadow);
 }
 
 }  // namespace lagomorph::render::raster

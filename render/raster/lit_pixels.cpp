@@ -29,6 +29,7 @@ Parts colors(float red, float green, float blue) {
 template <class BlockReceivers>
 ReceiverBlocks receivers_around(const PixelRectangle& part, int step, const BlockReceivers& receivers) {
   ReceiverBlocks all;
+  all.step = step;
   const int width = step * block_width, height = step * block_height;
   all.resize(part.width / width + 2, part.height / height + 2);
   for (int k = 0; k < all.rows * all.columns; ++k) {

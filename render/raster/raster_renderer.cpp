@@ -176,7 +176,7 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
     gl_->still.emplace(gl_->features, lights);
   }
   upload_surfaces(scene);
-  gl_->maps.set_scene(scene_, gl_->features, block_);
+  gl_->maps.set_scene(scene_, scene.meshes, gl_->features, block_);
   lights_are_stale_ = true;
   check_gl("taking the scene");
 }
@@ -409,7 +409,7 @@ void RasterRenderer::draw_seen(bool behind_ground) const {
 
 /// The background and the ground over it.
 void RasterRenderer::put_background(const PixelRectangle& drawn, std::span<float> color) {
-  const std::vector<TileRun> tiles = touched_tiles(block_, gl_->maps.casters(), raster_.shadow_map, drawn);
+  const std::vector<TileRun> tiles = touched_tiles(block_, gl_->maps.casters(), gl_->maps.least_map(), drawn);
   const StillParts& still = gl_->still->draw(block_, tiles);
   light_ground(block_, gl_->maps.depths(), tiles, lit_);
   copy_less_taken(block_, still, gl_->maps.ground_seen(), tiles, lit_, drawn, color);

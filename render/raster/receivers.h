@@ -41,6 +41,7 @@ float pixel_footprint(const FrameBlock&, float depth);
 /// A rectangle of pixels, or of cells of several, as blocks of receivers: rows of blocks from below.
 struct ReceiverBlocks {
   int columns = 0, rows = 0;  // of blocks
+  int step = 1;               // from one receiver to the next [pixels]
   std::vector<Receivers> blocks;
   std::vector<char> empty;  // 1: nothing is in the block
 

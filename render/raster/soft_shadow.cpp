@@ -83,17 +83,16 @@ std::vector<Span> spans_of(const ReceiverBlocks& at) {
 
 constexpr float unlike_all = -3e9F;
 
-}  // namespace
-
-void soft_shadow(const FrameBlock& frame, const DepthMaps& maps, int light, const ReceiverBlocks& at,
-                 std::vector<float>& seen) {
+/// Of a part of a light, which soft_shadow() puts together.
+void shadow_of_part(const DepthMaps& maps, std::size_t part, const ReceiverBlocks& at, float spacing,
+                    std::vector<float>& seen) {
   const int width = at.width(), height = at.height();
   Plane depth(width, height, unlike_all), tolerance(width, height, 0.0F), nearness(width, height, 0.0F),
       taps(width, height, 0.0F);
   bool any_blocked = false;
   at.for_each([&](int x, int y, const Receivers& r) {
     Blockers found;
-    find_blockers(frame, maps, light, r, found);
+    find_blockers(maps, part, r, found);
     Lanes reach;
     std::transform(r.footprint.begin(), r.footprint.end(), reach.begin(), [](float f) { return 10.0F * f; });
     depth.put(x, y, found.depth);
@@ -117,7 +116,7 @@ void soft_shadow(const FrameBlock& frame, const DepthMaps& maps, int light, cons
     shared_nearness.get(x, y, found.nearness);
     shared_taps.get(x, y, found.taps);
     Shadow shadow;
-    filter_shadow(frame, maps, light, r, found, shadow);
+    filter_shadow(maps, part, r, found, spacing, shadow);
     blocked.put(x, y, shadow.blocked);
     share.put(x, y, shadow.share);
   });
@@ -135,6 +134,50 @@ void soft_shadow(const FrameBlock& frame, const DepthMaps& maps, int light, cons
           1.0F - (alone + share.row(y)[x] * (mean - alone));
     }
   }
+}
+
+}  // namespace
+
+void soft_shadow(const FrameBlock& frame, const DepthMaps& maps, int light, const ReceiverBlocks& at,
+                 std::vector<float>& seen) {
+  const LightParts& parts = maps.lights[static_cast<std::size_t>(light)];
+  if (parts.count == 1 && !parts.below_ground) {
+    shadow_of_part(maps, parts.first, at, 1.0F, seen);
+    return;
+  }
+  std::vector<std::vector<float>> of_parts(parts.count);
+  for (std::size_t k = 0; k < parts.count; ++k)
+    shadow_of_part(maps, parts.first + k, at, static_cast<float>(at.step), of_parts[k]);
+  const auto width = static_cast<std::size_t>(at.width());
+  seen.assign(width * static_cast<std::size_t>(at.height()), 1.0F);
+  at.for_each([&](int x, int y, const Receivers& r) {
+    const auto pixel = [&](int lane) {
+      return static_cast<std::size_t>(y + row(lane)) * width + static_cast<std::size_t>(x + column(lane));
+    };
+    const bool may_be_below_ground = parts.below_ground && !r.is_ground;
+    if (!may_be_below_ground &&
+        std::all_of(of_parts.begin(), of_parts.end(), [&](const std::vector<float>& of_part) {
+          for (int lane = 0; lane < lanes; ++lane) {
+            if (of_part[pixel(lane)] < 1.0F) return false;
+          }
+          return true;
+        }))
+      return;
+    Lanes given{}, arriving{};
+    for (std::size_t k = 0; k < parts.count; ++k) {
+      PartLight light;
+      light_of_part(frame, maps.parts[parts.first + k].light, r, light);
+      for (int lane = 0; lane < lanes; ++lane) {
+        const auto l = static_cast<std::size_t>(lane);
+        given[l] += light.whole[l];
+        arriving[l] += light.past_ground[l] * of_parts[k][pixel(lane)];
+      }
+    }
+    for (int lane = 0; lane < lanes; ++lane) {
+      const auto l = static_cast<std::size_t>(lane);
+      if (given[l] > 0.0F) seen[pixel(lane)] = arriving[l] / given[l];
+    }
+  });
 }
 
 }  // namespace lagomorph::render::raster

@@ -22,7 +22,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 zenith, horizon, background;
   vec4 ground, ground_at, ground_texture, texture_color, ground_map;
   vec4 sky_map;
-  vec4 counts, shadow_taps;
+  vec4 counts;
   vec4 sky_picture;
   Light lights[4];
   SkyDirection sky_directions[16];

@@ -132,8 +132,8 @@ TEST(LightDepths, OfABallAreItsDistanceFromTheLight) {
   const Mesh ball = sphere(Vec3::Zero(), 0.5F, 96);
   const LightView view = fit_light_view(lamp(2.0F), std::vector<std::vector<Vec3>>{ball.positions}, 512);
   std::vector<DepthMap> maps;
-  draw_light_depths(std::vector{view.clip_from_world},
-                    std::vector<Caster>{{ball.positions, ball.triangles, true, 1.0F, 0}}, 512, maps);
+  draw_light_depths(std::vector{view}, std::vector<Caster>{{ball.positions, ball.triangles, true, 1.0F, 0}},
+                    maps);
   for (const float x : {0.0F, 0.05F, -0.13F, 0.2F}) {
     // Where the ray from the light meets the ball.
     const Vec3 from(0.0F, 2.0F, 0.0F), to = Vec3(x, 0.0F, 0.5F * x) - from, d = to.normalized();
@@ -156,8 +156,8 @@ TEST(LightDepths, NeighboursLeaveNoGap) {
   for (std::uint32_t i = 0; i < around; ++i) fine.triangles.push_back({0, 1 + (i + 1) % around, 1 + i});
   const LightView view = fit_light_view(lamp(1.0F), std::vector<std::vector<Vec3>>{fine.positions}, 2048);
   std::vector<DepthMap> maps;
-  draw_light_depths(std::vector{view.clip_from_world},
-                    std::vector<Caster>{{fine.positions, fine.triangles, false, 1.0F, 0}}, 2048, maps);
+  draw_light_depths(std::vector{view}, std::vector<Caster>{{fine.positions, fine.triangles, false, 1.0F, 0}},
+                    maps);
   int holes = 0;
   for (int y = 0; y < 400; ++y) {
     for (int x = 0; x < 400; ++x) {
@@ -173,8 +173,8 @@ TEST(LightDepths, WhatIsBehindTheLightIsCutOff) {
   const Mesh wall = rectangle(Vec3(0.0F, 0.5F, -0.4F), 1.0F * Vec3::UnitX(), 1.5F * Vec3::UnitY());
   const LightView view = fit_light_view(lamp(1.0F), std::vector<std::vector<Vec3>>{wall.positions}, 512);
   std::vector<DepthMap> maps;
-  draw_light_depths(std::vector{view.clip_from_world},
-                    std::vector<Caster>{{wall.positions, wall.triangles, false, 1.0F, 0}}, 512, maps);
+  draw_light_depths(std::vector{view}, std::vector<Caster>{{wall.positions, wall.triangles, false, 1.0F, 0}},
+                    maps);
   for (const float y : {0.7F, 0.4F, 0.0F, -0.5F}) {
     const Vec3 p(0.1F, y, -0.4F);
     EXPECT_NEAR(distance_of(view, depth_at(view, maps[0], 512, p)) / (1.0F - y), 1.0F, 0.03F) << y;
@@ -183,7 +183,9 @@ TEST(LightDepths, WhatIsBehindTheLightIsCutOff) {
 
 TEST(LightDepths, ThereMayBeNoMesh) {
   std::vector<DepthMap> maps;
-  draw_light_depths(std::vector<Mat4>{Mat4::Identity()}, {}, 256, maps);
+  LightView view;
+  view.size = 256;
+  draw_light_depths(std::vector{view}, {}, maps);
   ASSERT_EQ(maps.size(), 1U);
   EXPECT_TRUE(std::all_of(maps[0].begin(), maps[0].end(), [](std::uint16_t d) { return d == no_depth; }));
 }

@@ -1,0 +1,65 @@
+#include "render/raster/light_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+namespace lagomorph::render::raster {
+namespace {
+
+constexpr float widest_whole = 0.6F;  // of the distance from the nearest mesh; what is not wider is not split
+constexpr float widest_part = 0.3F;   // likewise
+constexpr int most_parts = 6;         // along a side
+
+/// From the light's middle to the nearest triangle's box of those that the light shines on; infinite if none.
+float nearest_mesh(const AreaLight& light, std::span<const Mesh> meshes) {
+  const Vec3 normal = light_frame(light).normal;
+  float nearest = std::numeric_limits<float>::max();
+  for (const Mesh& mesh : meshes) {
+    for (const Triangle& t : mesh.triangles) {
+      Eigen::AlignedBox3f box;
+      bool lit = false;
+      for (const auto v : t) {
+        const Vec3& p = mesh.positions[static_cast<std::size_t>(v)];
+        box.extend(p);
+        lit |= (p - light.position).dot(normal) > 0.0F;
+      }
+      if (lit) nearest = std::min(nearest, box.squaredExteriorDistance(light.position));
+    }
+  }
+  return std::sqrt(nearest);
+}
+
+}  // namespace
+
+LightSplit split_of(const AreaLight& light, std::span<const Mesh> meshes, const Ground& ground) {
+  const float nearest = std::max(nearest_mesh(light, meshes), 1e-6F);
+  const auto parts = [nearest](float size) {
+    if (size <= widest_whole * nearest) return 1;
+    return static_cast<int>(
+        std::min(std::ceil(size / (widest_part * nearest)), static_cast<float>(most_parts)));
+  };
+  LightSplit split;
+  split.across = parts(light.size.x());
+  split.up = parts(light.size.y());
+  const LightFrame frame = light_frame(light);
+  const float reach =
+      0.5F * (std::abs(frame.right.y()) * light.size.x() + std::abs(frame.up.y()) * light.size.y());
+  split.below_ground = ground.enabled && light.position.y() - reach < ground.height;
+  return split;
+}
+
+LightBlock part_of(const LightBlock& light, const LightSplit& split, int k) {
+  LightBlock part = light;
+  const auto middle = [](int i, int n) { return static_cast<float>(2 * i + 1 - n) / static_cast<float>(n); };
+  part.position.head<3>() +=
+      middle(k % split.across, split.across) * light.right.w() * light.right.head<3>() +
+      middle(k / split.across, split.up) * light.up.w() * light.up.head<3>();
+  part.right.w() /= static_cast<float>(split.across);
+  part.up.w() /= static_cast<float>(split.up);
+  return part;
+}
+
+}  // namespace lagomorph::render::raster
