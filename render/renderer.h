@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,6 +24,7 @@ struct FrameInfo {
       nullptr;  // of the frame before, for motion vectors; nullptr: it has not moved
   std::span<const Camera> shutter_cameras = {};  // see camera_at(), the frame's last; none: it stands still
   bool leaves_out_ground = false;                // the scene's, where it has some
+  std::optional<PixelRegion> region = {};        // the other pixels may be anything; none: all are drawn
 };
 
 /// A back end. Not for use by two threads at once; a renderer is used by the thread that made it.

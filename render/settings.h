@@ -46,11 +46,11 @@ struct RenderSettings {
   std::vector<std::string> channels;       // written beside the picture: see channel_kinds()
   std::string channel_format = "npy";      // of their files; only told to the renderer
   bool transparent = false;  // nothing is seen where nothing is: colour over black, and the channel alpha
-  std::vector<int> region;   // x0, y0, x1, y1: the others may be anything [pixels]; empty: all
+  std::vector<int> region;   // x0, y0, x1, y1 [pixels], see FrameInfo::region; empty: all
   RasterSettings raster;
   PathSettings path;
 
-  /// What is drawn.
+  /// What is asked for of the picture.
   PixelRegion drawn() const {
     if (region.empty()) return {0, 0, width, height};
     return {region[0], region[1], region[2], region[3]};

@@ -79,13 +79,12 @@ bool zooms(const CameraDesc& c) {
 }
 
 /// The colours of one frame stand for all: of that asked for, or else of the first where a body shows most of
-/// its range. Ranges are those of pictures: automatic ones of all states that RUN holds. The frame, or none
-/// where nothing shows a field.
-std::optional<int> add_colors(ExportedScene& scene, const StatesOfRun& states,
-                              const std::function<sim::State(int)>& state, FrameRange frames,
-                              std::optional<int> wanted) {
+/// its range. Ranges are those of pictures: automatic ones of all states that RUN holds. None where nothing
+/// shows a field.
+void add_colors(ExportedScene& scene, const StatesOfRun& states, const std::function<sim::State(int)>& state,
+                FrameRange frames, std::optional<int> wanted) {
   SurfaceFields fields(scene.desc, scene.model, scene.surfaces);
-  if (fields.is_empty()) return std::nullopt;
+  if (fields.is_empty()) return;
   if (fields.is_automatic())
     for (const auto& [seen, record] : states.records()) fields.see(state(seen).q);
   int best = frames.first;
@@ -96,8 +95,8 @@ std::optional<int> add_colors(ExportedScene& scene, const StatesOfRun& states,
       if (spread > most + 1e-9) most = spread, best = frame;
     }
   }
-  scene.colors = fields.colors(state(wanted.value_or(best)).q);
-  return wanted.value_or(best);
+  scene.color_frame = wanted.value_or(best);
+  scene.colors = fields.colors(state(scene.color_frame).q);
 }
 
 /// A file a frame, and for vtu the list of their times. False: asked to stop.
@@ -159,11 +158,7 @@ ExitStatus export_command(const Options& options) {
     if (std::string_view(format.name) == "gltf" && zooms(scene.camera))
       progress.note(fmt::format("the camera keeps its field of view of frame {} in a .glb", frames.first));
   }
-  std::optional<int> color_frame;
-  if (format.takes_colors) color_frame = add_colors(exported, states, state, frames, options.color_frame);
-  if (color_frame && frames.last > frames.first)
-    progress.note(
-        fmt::format("colours of a .glb do not move: they are those of frame {} throughout", *color_frame));
+  if (format.takes_colors) add_colors(exported, states, state, frames, options.color_frame);
   if (format.remarks != nullptr)
     for (const std::string& line : format.remarks(exported)) progress.note(line);
   const fs::path out = options.out.value_or(run.root() / "export");
@@ -190,7 +185,7 @@ ExitStatus export_command(const Options& options) {
                                    {"frames", {frames.first, frames.last}},
                                    {"fields", fields},
                                    {"files", files}};
-    if (color_frame) json["color_frame"] = *color_frame;
+    if (!exported.colors.empty()) json["color_frame"] = exported.color_frame;
     print(json.dump() + "\n");
   } else if (!options.quiet) {
     print(fmt::format("{} frame{} as {} in {}\n", sequence.count(), sequence.count() == 1 ? "" : "s",

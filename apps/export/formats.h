@@ -26,6 +26,7 @@ struct ExportedScene {
   std::function<render::CameraSettings(const sim::State&)> moving_camera;  // none: it stands still
   /// Linear RGB of each body's vertices in one frame, by the field it shows; none of one that shows none.
   std::vector<std::vector<render::Color>> colors = {};
+  int color_frame = 0;  // whose they are
 };
 
 /// A run of frames, whose states are read as they are asked for: one in memory at a time.

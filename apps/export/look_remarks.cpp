@@ -34,8 +34,8 @@ std::vector<std::string> gltf_remarks(const ExportedScene& scene) {
   for (std::size_t i = 0; i < scene.colors.size(); ++i) {
     if (scene.colors[i].empty()) continue;
     lines.push_back(
-        fmt::format("gltf: body '{}' keeps the colours of {} of the first frame; glTF has none that move",
-                    scene.model.mesh().bodies[i].name, scene.desc.body[i].shown.field));
+        fmt::format("gltf: body '{}' keeps the colours of {} of frame {} throughout; glTF has none that move",
+                    scene.model.mesh().bodies[i].name, scene.desc.body[i].shown.field, scene.color_frame));
   }
   return lines;
 }

@@ -267,12 +267,13 @@ void Glyphs::draw_displacements(render::Picture& picture, const View& things, co
   draw_arrows(picture, things, std::move(arrows));
 }
 
-void Glyphs::draw(render::Picture& picture, const View& things, const sim::State& state, double most) const {
+void Glyphs::draw(render::Picture& picture, const View& things, const sim::State& state, double most,
+                  const std::function<bool(std::size_t)>& hides) const {
   if (is_empty()) return;
   draw_displacements(picture, things, state.q, most);
   View view = things;
   for (std::size_t b = 0; b < tets_.size(); ++b)
-    view.items().draw(tets_[b].mesh.triangles, positions_of(tets_[b], state.q), own_items(b));
+    if (hides(b)) view.items().draw(tets_[b].mesh.triangles, positions_of(tets_[b], state.q), own_items(b));
   if (scene_.glyphs.pins) draw_pins(picture, view, state);
   if (scene_.glyphs.loads != "none") draw_loads(picture, view, state);
   if (scene_.glyphs.gravity) draw_gravity(picture, view, state);

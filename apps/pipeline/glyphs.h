@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "apps/overlay/view.h"
@@ -19,9 +20,10 @@ public:
   Glyphs(const SceneDesc&, const sim::Model&, const std::vector<sim::Surface>&);
 
   bool is_empty() const;
-  /// `things` is what the scene draws; the tets' boundaries stand in the way of what is on them, too. Arrows
-  /// of displacements have the last colour at `most` [m].
-  void draw(render::Picture&, const View& things, const sim::State&, double most) const;
+  /// `things` is what the scene draws; the tets' boundaries of bodies that hide stand in the way of what is
+  /// on them, too. Arrows of displacements have the last colour at `most` [m].
+  void draw(render::Picture&, const View& things, const sim::State&, double most,
+            const std::function<bool(std::size_t body)>& hides) const;
   /// The largest displacement that has an arrow at positions q. [m]
   double largest_displacement(const sim::VecX& q) const;
 

@@ -78,15 +78,43 @@ std::map<std::string, std::array<double, 2>> Overlays::ranges() const {
   return all;
 }
 
-View Overlays::view_of(const render::Camera& camera, const sim::VecX& q) const {
+View Overlays::view_of(const render::Camera& camera, const sim::VecX& q, bool see_through_hide) const {
   View view(camera, scene_.ground);
   int first_item = 0;
-  for (const BodyLines& body : drawn_) {
-    if (body.mesh.triangles.empty()) continue;
+  for (std::size_t i = 0; i < drawn_.size(); ++i) {
+    const BodyLines& body = drawn_[i];
+    if (body.mesh.triangles.empty() || (is_see_through(i) && !see_through_hide)) continue;
     view.items().draw(body.mesh.triangles, positions_of(body, q), first_item);
     first_item += static_cast<int>(body.mesh.triangles.size());
   }
   return view;
+}
+
+std::vector<float> Overlays::seen_through(const render::Camera& camera, const sim::VecX& q) const {
+  ItemBuffer items(camera);
+  std::vector<float> lets_through;  // of each item
+  for (std::size_t i = 0; i < drawn_.size(); ++i) {
+    if (!is_see_through(i)) continue;
+    items.draw(drawn_[i].mesh.triangles, positions_of(drawn_[i], q), static_cast<int>(lets_through.size()));
+    lets_through.resize(lets_through.size() + drawn_[i].mesh.triangles.size(),
+                        1.0F - scene_.body[i].look.opacity);
+  }
+  constexpr int n = ItemBuffer::samples;
+  std::vector<float> shares;
+  shares.reserve(static_cast<std::size_t>(camera.width()) * static_cast<std::size_t>(camera.height()));
+  for (int y = 0; y < camera.height(); ++y) {
+    for (int x = 0; x < camera.width(); ++x) {
+      float sum = 0.0F, count = 0.0F;
+      for (int s = 0; s < n * n; ++s) {
+        const int item = items.item(n * x + s % n, n * y + s / n);
+        if (item == ItemBuffer::none) continue;
+        sum += lets_through[static_cast<std::size_t>(item)];
+        count += 1.0F;
+      }
+      shares.push_back(count > 0.0F ? sum / count : 0.0F);
+    }
+  }
+  return shares;
 }
 
 void Overlays::draw_ghosts(render::Picture& picture, const View& view) const {
@@ -99,13 +127,14 @@ void Overlays::draw_ghosts(render::Picture& picture, const View& view) const {
   }
 }
 
-void Overlays::draw_wireframes(render::Picture& picture, const View& view, const sim::VecX& q) const {
+void Overlays::draw_wireframes(render::Picture& picture, const View& view, const sim::VecX& q,
+                               bool see_through_hide) const {
   for (std::size_t i = 0; i < wireframes_.size(); ++i) {
     const BodyLines& lines = wireframes_[i];
     if (lines.mesh.edges.empty()) continue;
     const std::vector<render::Vec3> x = positions_of(lines, q);
     View with_own = view;  // a mesh hides its own lines, whether it is filled or not
-    with_own.items().draw(lines.mesh.triangles, x, own_items(i));
+    if (see_through_hide || !is_see_through(i)) with_own.items().draw(lines.mesh.triangles, x, own_items(i));
     draw_wireframe(picture, with_own, lines.mesh, x, own_items(i), style_of(scene_.body[i].wireframe));
   }
 }
@@ -120,13 +149,31 @@ void Overlays::draw_labels(render::Picture& picture, const View& view, const sim
   }
 }
 
+void Overlays::draw_in_world(render::Picture& picture, const render::Camera& camera, const sim::State& state,
+                             bool see_through_hide) const {
+  const View view = view_of(camera, state.q, see_through_hide);
+  const auto hides = [&](std::size_t body) { return see_through_hide || !is_see_through(body); };
+  draw_ghosts(picture, view);
+  draw_wireframes(picture, view, state.q, see_through_hide);
+  glyphs_.draw(picture, view, state, most_, hides);
+  draw_labels(picture, view, state.q);
+}
+
 void Overlays::draw(render::Picture& picture, const render::Camera& camera, const sim::State& state) const {
   if (!has_any_in_world()) return;
-  const View view = view_of(camera, state.q);
-  draw_ghosts(picture, view);
-  draw_wireframes(picture, view, state.q);
-  glyphs_.draw(picture, view, state, most_);
-  draw_labels(picture, view, state.q);
+  bool any = false;
+  for (std::size_t i = 0; i < scene_.body.size(); ++i) any = any || is_see_through(i);
+  if (!any) return draw_in_world(picture, camera, state, true);
+  // Once as if see-through bodies were solid and once as if they were not there: what differs is behind them.
+  render::Picture without = picture;
+  draw_in_world(picture, camera, state, true);
+  draw_in_world(without, camera, state, false);
+  const std::vector<float> shares = seen_through(camera, state.q);
+  for (std::size_t i = 0; i < picture.rgb.size(); ++i) {
+    const int hidden = picture.rgb[i], seen = without.rgb[i];
+    picture.rgb[i] = static_cast<std::uint8_t>(
+        std::lround(static_cast<float>(hidden) + shares[i / 3] * static_cast<float>(seen - hidden)));
+  }
 }
 
 void Overlays::draw_energies(render::Picture& picture, OverlayLayout& layout, int frame) const {

@@ -46,10 +46,18 @@ public:
 
 private:
   bool has_any_in_world() const;
-  /// Everything solid that a renderer draws.
-  View view_of(const render::Camera&, const sim::VecX& q) const;
+  /// Light goes through it, straight on. What is clear bends it: behind a clear body nothing is where it
+  /// seems.
+  bool is_see_through(std::size_t body) const {
+    return scene_.body[body].surface.fill && scene_.body[body].look.opacity < 1.0F;
+  }
+  /// Everything that a renderer draws and that hides what is behind it: see-through bodies as asked for.
+  View view_of(const render::Camera&, const sim::VecX& q, bool see_through_hide) const;
+  void draw_in_world(render::Picture&, const render::Camera&, const sim::State&, bool see_through_hide) const;
+  /// How much of what is behind see-through bodies is seen in each pixel: what the nearest lets through.
+  std::vector<float> seen_through(const render::Camera&, const sim::VecX& q) const;
   void draw_ghosts(render::Picture&, const View&) const;
-  void draw_wireframes(render::Picture&, const View&, const sim::VecX& q) const;
+  void draw_wireframes(render::Picture&, const View&, const sim::VecX& q, bool see_through_hide) const;
   void draw_labels(render::Picture&, const View&, const sim::VecX& q) const;
 
   const SceneDesc& scene_;

@@ -63,6 +63,16 @@ void paste(const render::Picture& panel, const PanelPlace& place, render::Pictur
 
 render::PixelRegion region_of(const PanelPlace& p) { return {p.x, p.y, p.x + p.width, p.y + p.height}; }
 
+/// What a region of the whole picture has of a panel, from the panel's corner on; of no width or height where
+/// it has nothing.
+render::PixelRegion part_of(const PanelPlace& p, const render::PixelRegion& region) {
+  const auto in = [](int at, int begin, int side) { return std::clamp(at - begin, 0, side); };
+  return {in(region.x0, p.x, p.width), in(region.y0, p.y, p.height), in(region.x1, p.x, p.width),
+          in(region.y1, p.y, p.height)};
+}
+
+bool is_empty(const render::PixelRegion& r) { return r.width() <= 0 || r.height() <= 0; }
+
 }  // namespace
 
 Views::View::View(SceneDesc shown, const PanelPlace& at, const sim::Model& model,
@@ -195,6 +205,7 @@ render::Image Views::draw(render::Renderer& renderer, render::FrameInfo frame, c
     frame.shutter_cameras = open;
   }
   frame.leaves_out_ground = !view.scene.ground.enabled;
+  if (!scene_.render.region.empty()) frame.region = part_of(view.place, scene_.render.drawn());
   return renderer.render(camera(view, frame.frame, q), frame);
 }
 
@@ -206,6 +217,8 @@ render::Image Views::draw(render::Renderer& renderer, render::FrameInfo frame, c
   }
   render::Image whole(scene_.render.width, scene_.render.height);
   for (const std::unique_ptr<View>& view : views_) {
+    // The first gives the picture its channels in any case.
+    if (view != views_.front() && is_empty(part_of(view->place, scene_.render.drawn()))) continue;
     color(renderer, *view, q);
     paste(draw(renderer, frame, *view, q, motion), view->place, whole);
   }
@@ -229,13 +242,14 @@ render::Picture Views::finish(const render::Image& image, const sim::State& stat
   const SceneCaption caption(scene_, state.frame, told);
   for (const std::unique_ptr<View>& view : views_) {
     const PanelPlace& place = view->place;
+    if (is_empty(part_of(place, scene_.render.drawn()))) continue;
     OverlayLayout layout(place.width, place.height);
     if (const std::optional<Rectangle> p = caption.plate())
       layout.occupy({p->left - place.x, p->top - place.y, p->right - place.x, p->bottom - place.y});
     paste(finished(*view, cropped(image, region_of(place)), std::move(layout)), place, whole);
   }
   caption.draw(whole);
-  return whole;
+  return cropped(std::move(whole), scene_.render.drawn());
 }
 
 bool need_all_states(const SceneDesc& scene) {

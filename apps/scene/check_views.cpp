@@ -163,9 +163,6 @@ void check_views(const SceneDesc& scene, const Places& places) {
   check_region(scene.render, places);
   if (!scene.render.region.empty()) check_cells(scene, "a region", places);
   if (scene.panel.empty()) return check_moves(scene, "camera", places);
-  if (!scene.render.region.empty()) {
-    wrong_input(fmt::format("{}render.region does not go together with panels", places.of("render.region")));
-  }
   check_cells(scene, "panels", places);
   for (std::size_t i = 0; i < scene.panel.size(); ++i) check_panel(scene, i, places);
 }

@@ -80,6 +80,7 @@ SceneDesc panel_scene(const SceneDesc& scene, std::size_t panel) {
   shown.energy_plot.show = shown.energy_plot.show && panel == 0;  // one is enough
   shown.render.width = place.width;
   shown.render.height = place.height;
+  shown.render.region.clear();  // is of the whole
   return shown;
 }
 

@@ -141,7 +141,8 @@ public:
                                        .triangle_id = wanted(image, triangle_id_channel)};
       const path::SeenScene scene = {*geometry_, *shading_, scene_.meshes, camera,
                                      frame.camera_before != nullptr ? *frame.camera_before : camera};
-      if (seen.any()) for_tiles(camera, [&](const path::Tile& tile) { write_seen(scene, tile, seen); });
+      if (seen.any())
+        for_tiles(camera, frame, [&](const path::Tile& tile) { write_seen(scene, tile, seen); });
     });
     return image;
   }
@@ -180,16 +181,16 @@ private:
   }
 
   /// Whether a tile has pixels that are asked for; what is drawn of it does not depend on the others.
-  bool is_drawn(int x, int y) const {
-    if (settings_.region.empty()) return true;
-    const PixelRegion r = settings_.drawn();
+  bool is_drawn(int x, int y, const std::optional<PixelRegion>& region) const {
+    if (!region) return true;
+    const PixelRegion& r = *region;
     const int around = settings_.path.denoise ? denoising_reach({}) : 0;
     return x < r.x1 + around && x + tile_size > r.x0 - around && y < r.y1 + around &&
            y + tile_size > r.y0 - around;
   }
 
   template <class Body>
-  void for_tiles(const Camera& camera, const Body& body) const {
+  void for_tiles(const Camera& camera, const FrameInfo& frame, const Body& body) const {
     const int columns = (camera.width() + tile_size - 1) / tile_size;
     const int rows = (camera.height() + tile_size - 1) / tile_size;
     tbb::parallel_for(
@@ -198,7 +199,7 @@ private:
           for (int i = range.begin(); i != range.end(); ++i) {
             const int x = i % columns * tile_size;
             const int y = i / columns * tile_size;
-            if (!is_drawn(x, y)) continue;
+            if (!is_drawn(x, y, frame.region)) continue;
             body(path::Tile{x, y, std::min(x + tile_size, camera.width()),
                             std::min(y + tile_size, camera.height())});
           }
@@ -218,7 +219,7 @@ private:
       return path::PathTracer(*geometry_, *shading_, camera, open, filter_, settings_.samples,
                               settings_.path);
     });
-    for_tiles(camera, [&](const path::Tile& tile) {
+    for_tiles(camera, frame, [&](const path::Tile& tile) {
       std::optional<path::TileMeans> means;
       if (mean_channels.any()) means.emplace(tile, mean_channels, camera.width());
       path::TileMeans* kept = means ? &*means : nullptr;

@@ -43,12 +43,16 @@ ReceiverBlocks receivers_around(const PixelRectangle& part, int step, const Bloc
 /// What cells say of a pixel.
 enum class Found { nothing_there, yes, no };
 
-/// Calls part() for bands of a rectangle of whole blocks of cells, on all threads.
+constexpr int band_height = 64;  // rows, over which a block more to both sides is little
+
+/// Calls part() for bands of a rectangle of whole blocks of cells, counted from its corner, on all threads.
+/// They are the same rows of the picture whatever of it is asked for: what is shared ends with them.
 template <class Part>
-void for_bands(int width, int height, const Part& part) {
-  constexpr int most = 64;  // rows, over which a block more to both sides is little
-  tbb::parallel_for(0, (height + most - 1) / most, [&](int k) {
-    part(PixelRectangle{0, k * most, width, std::min(most, height - k * most)});
+void for_bands(const PixelRectangle& at, const Part& part) {
+  const int first = at.y / band_height, end = (at.y + at.height + band_height - 1) / band_height;
+  tbb::parallel_for(first, end, [&](int k) {
+    const int low = std::max(k * band_height, at.y), high = std::min((k + 1) * band_height, at.y + at.height);
+    part(PixelRectangle{0, low - at.y, at.width, high - low});
   });
 }
 
@@ -213,6 +217,8 @@ public:
       upper = std::max(upper, static_cast<int>(run.upper));
     }
     if (right <= left) return;
+    left =
+        left / (ground_step * block_width) * (ground_step * block_width);  // cells' blocks are the picture's
     around_ = {left, lower, right - left, upper - lower};
     columns_ = around_.width / tile_size;
     rows_ = around_.height / tile_size;
@@ -259,6 +265,15 @@ PixelRectangle whole_blocks(const PixelRectangle& r) {
   return {x, y, up(r.x + r.width, width) - x, up(r.y + r.height, height) - y};
 }
 
+PixelRectangle with_neighbours(const PixelRectangle& r) {
+  const auto down = [](int x, int step) { return x / step * step; };
+  const auto up = [](int x, int step) { return (x + step - 1) / step * step; };
+  // Bands, and the block beside them; to the sides the blocks around that of a pixel.
+  constexpr int width = ground_step * block_width, above = 2 * ground_step * block_height;
+  const int x = down(r.x, width) - width, y = down(r.y, band_height) - above;
+  return {x, y, up(r.x + r.width, width) + width - x, up(r.y + r.height, band_height) + above - y};
+}
+
 void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<const TileRun> runs,
                   LitPixels& lit) {
   const HiddenTiles tiles(runs);
@@ -266,7 +281,7 @@ void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<cons
   lit.lights.assign(area(lit.at), whole);
   lit.diffuse.clear();
   lit.mirrored.clear();
-  for_bands(lit.at.width, lit.at.height, [&](const PixelRectangle& band) {
+  for_bands(lit.at, [&](const PixelRectangle& band) {
     const auto receivers = [&](int x, int y, int step, Receivers& r) {
       return tiles.touch(x, band.y + y, step * block_width, step * block_height) &&
              ground_receivers(frame, lit.at.x + x, lit.at.y + band.y + y, step, r);
@@ -285,7 +300,7 @@ namespace {
 /// N: parts, see CoarseParts.
 template <std::size_t N>
 void light_surfaces_by_cells(const Lighting& l, const SurfaceTexels& surfaces) {
-  for_bands(surfaces.at.width, surfaces.at.height, [&](const PixelRectangle& band) {
+  for_bands(surfaces.at, [&](const PixelRectangle& band) {
     const auto receivers = [&](int x, int y, int step, Receivers& r) {
       return surface_receivers(l.frame, l.sky == Sky::mirrored_too, surfaces, band.x + x, band.y + y, step,
                                r);
@@ -303,31 +318,18 @@ void light_surfaces_by_cells(const Lighting& l, const SurfaceTexels& surfaces) {
   });
 }
 
-void light_surfaces_each(const Lighting& l, const SurfaceTexels& surfaces) {
-  for_bands(surfaces.at.width, surfaces.at.height, [&](const PixelRectangle& band) {
-    light_each_pixel(l, band,
-                     receivers_around({0, 0, band.width, band.height}, 1, [&](int x, int y, Receivers& r) {
-                       return surface_receivers(l.frame, l.sky == Sky::mirrored_too, surfaces, band.x + x,
-                                                band.y + y, 1, r);
-                     }));
-  });
-}
-
 }  // namespace
 
 bool light_surfaces(const FrameBlock& frame, const DepthMaps& maps, const PixelRectangle& rectangle,
                     std::span<const SurfaceTexel> texels, LitPixels& lit) {
-  const auto seen =
-      std::count_if(texels.begin(), texels.end(), [](const SurfaceTexel& t) { return t.depth != 0; });
-  if (seen == 0) return false;
+  if (std::none_of(texels.begin(), texels.end(), [](const SurfaceTexel& t) { return t.depth != 0; }))
+    return false;
   lit.at = rectangle;
   for (std::vector<Parts>* parts : {&lit.lights, &lit.diffuse}) parts->resize(area(rectangle));
   lit.mirrored.resize(maps.sky_is_map ? area(rectangle) : 0);
   const SurfaceTexels surfaces{rectangle, texels};
   const Lighting lighting{frame, maps, maps.sky_is_map ? Sky::mirrored_too : Sky::diffuse, lit};
-  if (static_cast<std::size_t>(seen) < texels.size() / 20) {
-    light_surfaces_each(lighting, surfaces);  // edges, where cells have no neighbours
-  } else if (maps.sky_is_map) {
+  if (maps.sky_is_map) {
     light_surfaces_by_cells<first_mirrored + 3>(lighting, surfaces);
   } else {
     light_surfaces_by_cells<first_sky + 3>(lighting, surfaces);
@@ -342,7 +344,7 @@ void light_ground_map(const FrameBlock& frame, const DepthMaps& maps, LitPixels&
   lit.diffuse.resize(area(lit.at));
   lit.mirrored.clear();
   constexpr std::size_t parts = first_sky + 3;
-  for_bands(size, size, [&](const PixelRectangle& band) {
+  for_bands(lit.at, [&](const PixelRectangle& band) {
     const auto receivers = [&](int x, int y, int step, Receivers& r) {
       return ground_map_receivers(frame, band.x + x, band.y + y, step, r);
     };

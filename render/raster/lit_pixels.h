@@ -26,6 +26,10 @@ struct LitPixels {
 /// little less.
 PixelRectangle whole_blocks(const PixelRectangle&);
 
+/// What must be lit for the light in a rectangle to be that of the whole picture, to the bit: neighbours
+/// share.
+PixelRectangle with_neighbours(const PixelRectangle&);
+
 /// Of the ground in tiles, where their lights may be hidden: the lights alone, of the rectangle around them.
 void light_ground(const FrameBlock&, const DepthMaps&, std::span<const TileRun>, LitPixels&);
 /// Of surfaces in a rectangle of whole blocks. Returns false, with nothing made, where no texel has a depth.

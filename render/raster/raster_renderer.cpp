@@ -307,15 +307,15 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
 
   Image image(camera.width(), camera.height());
   const PixelRectangle picture = {0, 0, camera.width(), camera.height()};
-  const PixelRectangle drawn = common_rectangle(drawn_rectangle(settings_, camera.height()), picture);
+  const PixelRectangle drawn =
+      frame.region ? common_rectangle(with_neighbours(rectangle_of(*frame.region, camera.height())), picture)
+                   : picture;
   if (draws_alpha()) {  // of all pixels
     targets->bind_seen();
     targets->clear_seen();
   }
-  // With the neighbours that soft_shadow() shares with.
-  const PixelRectangle around = {drawn.x - 2, drawn.y - 2, drawn.width + 4, drawn.height + 4};
-  const PixelRectangle wanted = common_rectangle(seen_rectangle(camera, positions_, scene_), around);
-  const PixelRectangle seen = common_rectangle(whole_blocks(common_rectangle(wanted, picture)), picture);
+  const PixelRectangle wanted = common_rectangle(seen_rectangle(camera, positions_, scene_), drawn);
+  const PixelRectangle seen = common_rectangle(whole_blocks(wanted), picture);
   std::vector<float>& color = image.add(color_channel, 3);
   put_background(drawn, color);
   glScissor(seen.x, seen.y, seen.width, seen.height);

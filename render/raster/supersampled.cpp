@@ -16,7 +16,6 @@ RenderSettings finer(RenderSettings s) {
   const int factor = std::exchange(s.raster.supersample, 1);
   s.width *= factor;
   s.height *= factor;
-  for (int& border : s.region) border *= factor;
   std::erase_if(s.channels, [](const std::string& channel) { return !has_mean(channel); });
   return s;
 }
@@ -70,6 +69,9 @@ public:
   Image render(const Camera& camera, const FrameInfo& frame) override {
     FrameInfo still = frame;
     still.camera_before = nullptr;
+    if (still.region)
+      for (int* border : {&still.region->x0, &still.region->y0, &still.region->x1, &still.region->y1})
+        *border *= factor_;
     const Image fine = fine_->render(camera.enlarged(factor_), still);
     Image image = centres_ ? centres_->render(camera, frame) : Image(camera.width(), camera.height());
     for (const Channel& channel : fine.channels())

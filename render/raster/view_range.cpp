@@ -74,8 +74,7 @@ PixelRectangle seen_rectangle(const Camera& camera, std::span<const std::vector<
           static_cast<int>(high.x() - low.x()), static_cast<int>(high.y() - low.y())};
 }
 
-PixelRectangle drawn_rectangle(const RenderSettings& settings, int height) {
-  const PixelRegion r = settings.drawn();
+PixelRectangle rectangle_of(const PixelRegion& r, int height) {
   return {r.x0, height - r.y1, r.width(), r.height()};
 }
 

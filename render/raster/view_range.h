@@ -29,8 +29,8 @@ struct PixelRectangle {
 PixelRectangle seen_rectangle(const Camera&, std::span<const std::vector<Vec3>> positions,
                               const RenderScene&);
 
-/// What the settings' region asks for of a picture of this height.
-PixelRectangle drawn_rectangle(const RenderSettings&, int height);
+/// A region of a picture of this height.
+PixelRectangle rectangle_of(const PixelRegion&, int height);
 /// Empty (of no width and height) where they do not meet.
 PixelRectangle common_rectangle(const PixelRectangle&, const PixelRectangle&);
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# What the program writes, read by others: states by numpy, meshes by meshio and Gmsh, VTU and PVD by VTK, glTF by Assimp, pictures
-# by pngcheck, OpenEXR by OpenImageIO and exrheader, video by ffprobe; and quadratic tets that Tetgen writes, read by the program.
+# What the program writes, read by others: states by numpy, meshes by meshio and Gmsh, VTU and PVD by VTK, glTF by Assimp and Blender,
+# OBJ and PLY sequences by Blender, USD by TinyUSDZ (Debian's Blender is built without USD) where npm can fetch it, pictures by pngcheck,
+# OpenEXR by OpenImageIO and exrheader, video by ffprobe; and quadratic tets that Tetgen writes, read by the program.
 # shellcheck source=tests/full/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 work=$(mktemp -d)
@@ -20,6 +21,17 @@ done
 "$program" export run --frames 2 --format ply --fields von_mises -o surface --quiet
 "$program" export run --frames 2 --format obj -o surface --quiet
 "$program" export run --format gltf --frames 0..2 --quiet
+"$program" simulate "$root/assets/scenes/cantilever.toml" --frames 0..4 --out moving --quiet \
+  --set body.0.surface.smooth=true --set body.0.look.field=displacement
+for format in gltf usda ply obj; do
+  fields=()
+  case $format in usda | ply) fields=(--fields von_mises) ;; esac
+  "$program" export moving --format "$format" "${fields[@]}" --quiet
+done
+"$program" export moving --format usda --frames 4 -o last/export --quiet
+"$program" render moving --frames 2 -o clear --quiet --set body.0.look='{ transmission = 1, coat = 0.5 }' \
+  --set render.width=160 --set render.height=90
+"$program" export clear --format gltf --frames 2 --quiet
 "$program" refine run/mesh.msh --order 2 -o quadratic.msh --quiet >/dev/null
 for extension in vtk vtu; do "$program" info quadratic.msh --mend "quadratic.$extension" --quiet >/dev/null; done
 cat >cube.off <<'CUBE'
@@ -126,6 +138,40 @@ grep -q 'compression.*: zip, multi-scanline blocks' exrheader.log || { cat exrhe
 gmsh -check run/mesh.msh >gmsh.log 2>&1 || { cat gmsh.log; fail "Gmsh does not read mesh.msh"; }
 assimp info run/export/*.glb >assimp.log 2>&1 || { cat assimp.log; fail "Assimp does not read the .glb"; }
 grep -Eq '^Animations: +1$' assimp.log || { cat assimp.log; fail "Assimp sees no animation in the .glb"; }
+blender --background --factory-startup --python-exit-code 1 --python "$root/tests/full/blender.py" >blender.log 2>&1 ||
+  { tail -n 20 blender.log; fail "Blender does not see the states in .glb, .obj and .ply"; }
+# Of one version, for its package is not Debian's.
+if { command -v node && command -v npm && npm pack tinyusdz@0.9.0-rc10; } >npm.log 2>&1; then
+  tar xf tinyusdz-*.tgz
+  node "$root/tests/full/usd.mjs" >usd.log 2>&1 || { cut -c 1-200 usd.log; fail "TinyUSDZ does not read the .usda"; }
+  /usr/bin/python3 - <<'PY' || fail "TinyUSDZ does not see the states in the .usda"
+import json, math, meshio, numpy as np
+usd = json.load(open("usd.json"))
+frames = [meshio.read(f"moving/export/frame_{k:04}.ply") for k in range(5)]
+assert abs(frames[4].points - frames[1].points).max() > 0.01, "nothing moves"
+q = np.load("moving/states/frame_0004.npy")[0, 0]
+assert all((abs(q - x).max(axis=1) == 0).any() for x in frames[4].points), "no vertices of the state"
+for name, frame in (("moving", 0), ("last", 4)):
+    stage = usd[name]
+    assert stage["meshes"] == 1 and set(stage["faceVertexCounts"]) == {3}
+    assert np.array_equal(np.reshape(stage["faceVertexIndices"], (-1, 3)), frames[0].cells_dict["triangle"])
+    assert np.allclose(np.reshape(stage["points"], (-1, 3)), frames[frame].points, atol=1e-6), f"points of {name}"
+    assert np.allclose(np.linalg.norm(np.reshape(stage["normals"], (-1, 3)), axis=1), 1, atol=1e-5)
+    assert np.allclose(stage["material"]["diffuseColor"], (0.72, 0.12, 0.08)), stage["material"]
+    assert math.isclose(stage["material"]["roughness"], 0.35, abs_tol=1e-6)
+header, samples = usd["header"], usd["samples"]
+assert [header[k] for k in ("startTimeCode", "endTimeCode", "timeCodesPerSecond", "framesPerSecond", "metersPerUnit")] == [0, 4, 60, 60, 1], header
+assert math.isclose(header["focalLength"], 12 / math.tan(math.radians(16)), abs_tol=1e-4), header
+assert all(list(samples[name]) == list("01234") for name in samples), samples.keys()
+for k, frame in enumerate(frames):
+    points, extent = (np.reshape(samples[name][str(k)], (-1, 3)) for name in ("points", "extent"))
+    assert np.allclose(points, frame.points, atol=1e-6), f"points at {k}"
+    assert np.allclose(extent, (points.min(axis=0), points.max(axis=0)), atol=1e-6), f"extent at {k}"
+    assert np.allclose(samples["primvars:von_mises"][str(k)], frame.point_data["von_mises"], rtol=1e-6), f"stress at {k}"
+PY
+else
+  echo "skipped: the .usda; npm has no tinyusdz here"
+fi
 pngcheck -q run/frames/*.png || fail "pngcheck"
 ffprobe -v error -show_entries stream=codec_name,pix_fmt,nb_frames -of csv=p=0 run/*.mp4 | tee probe.txt
 grep -qx 'h264,yuv420p,3' probe.txt || fail "the video is not three frames of H.264 in yuv420p"

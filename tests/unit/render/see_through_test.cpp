@@ -26,6 +26,7 @@ struct Drawn {
   std::string backend;
   int samples = 1, bounces = 0, multisample = 4;
   bool transparent = false;
+  std::vector<std::string> channels = {};
 };
 
 Image draw(const Drawn& how, const RenderScene& scene, const CameraSettings& camera = camera_of_test()) {
@@ -35,6 +36,7 @@ Image draw(const Drawn& how, const RenderScene& scene, const CameraSettings& cam
   s.height = height;
   s.samples = how.samples;
   s.transparent = how.transparent;
+  s.channels = how.channels;
   s.path.bounces = how.bounces;
   s.path.filter = "box";
   s.path.filter_radius = 0.5F;
@@ -95,6 +97,26 @@ TEST(SeeThrough, AlphaIsWhatIsThere) {
   EXPECT_NEAR(middle(raster.find(alpha_channel)->values, 1), there, 1e-4);
   const Image path = draw({.backend = "path", .samples = 1024, .transparent = true}, scene, from_front());
   EXPECT_NEAR(middle(path.find(alpha_channel)->values, 1), there, 0.05);
+}
+
+/// As of an opaque one in its place.
+TEST(SeeThrough, ChannelsOfOneRayAreOfTheFirstSurface) {
+  RenderScene scene = sheets({1.0F, 1.0F}), glass = scene;
+  glass.meshes[0].material.opacity = 0.25F;
+  RenderScene jelly = scene;
+  jelly.meshes[0].material.transmission = 1.0F;
+  const std::vector<std::string> channels = {depth_channel, normal_channel, position_channel, body_id_channel,
+                                             triangle_id_channel};
+  for (const char* backend : {"raster", "path"}) {
+    const Drawn how = {.backend = backend, .channels = channels};
+    const Image solid = draw(how, scene, from_front());
+    EXPECT_EQ(middle(solid.find(body_id_channel)->values, 1), 0.0);
+    for (const RenderScene* other : {&glass, &jelly}) {
+      const Image first = draw(how, *other, from_front());
+      for (const std::string& channel : channels)
+        EXPECT_EQ(first.find(channel)->values, solid.find(channel)->values) << backend << channel;
+    }
+  }
 }
 
 /// A floor under a sheet that the sun shines through.

@@ -150,6 +150,13 @@ TEST_F(ExportSequence, GltfHasTheColorsOfAField) {
       EXPECT_LT(from_first, 1e-6F) << "nothing has moved in frame 0";
     }
   }
+  for (const auto& [asked, told] :
+       {std::pair(Arguments{}, "displacement of frame 3 throughout"),
+        std::pair(Arguments{"--color-frame", "1"}, "displacement of frame 1 throughout")}) {
+    const std::string said =
+        run_program(Arguments{"export", at("run").string(), "--format", "gltf"} + asked).err;
+    EXPECT_NE(said.find("colours of " + std::string(told)), std::string::npos) << said;
+  }
   expect(0, simulate("plain"));
   expect(0, {"export", at("plain").string(), "--format", "gltf", "--quiet"});
   EXPECT_EQ(Glb(read_all(at("plain/export/bar.glb"))).json.dump().find("COLOR_0"), std::string::npos);
@@ -295,7 +302,7 @@ TEST_F(ExportSequence, WhatIsLeftOutOfALookIsTold) {
                              "opacity = 0.5, field = 'J' }"}));
   EXPECT_NE(said("gltf").find(
                 "gltf: subsurface (an opaque base of subsurface_color) of body 'bar' is left out\n"
-                "gltf: body 'bar' keeps the colours of J of the first frame; glTF has none that move\n"),
+                "gltf: body 'bar' keeps the colours of J of frame 0 throughout; glTF has none that move\n"),
             std::string::npos);
   EXPECT_NE(
       said("usda").find("usda: transmission (an opaque base of absorption_color), sheen, subsurface (an "

@@ -65,6 +65,35 @@ TEST(Overlays, WireframesOfSurfaceAndTets) {
             tets);
 }
 
+/// Lines behind a see-through surface show as much as it lets through, its own back ones among them. A clear
+/// body bends light: it hides as a solid one does.
+TEST(Overlays, WhatIsBehindASeeThroughBodyShowsThrough) {
+  const char* const lines = "body.0.wireframe.show=true";
+  const render::Picture solid = Bar({lines}).picture(),
+                        all = Bar({lines, "body.0.wireframe.hidden=all"}).picture(),
+                        through = Bar({lines, "body.0.look.opacity=0.25"}).picture(),
+                        clear = Bar({lines, "body.0.look.transmission=1"}).picture();
+  EXPECT_EQ(clear.rgb, solid.rgb);
+  int behind = 0;
+  for (std::size_t i = 0; i < solid.rgb.size(); ++i) {
+    if (all.rgb[i] == solid.rgb[i]) {
+      ASSERT_EQ(through.rgb[i], solid.rgb[i]);
+      continue;
+    }
+    ASSERT_LE(through.rgb[i], solid.rgb[i]) << "lines are dark";
+    // Where a line leaves the body's outline by half its width, nothing lets it through.
+    if (through.rgb[i] == solid.rgb[i]) continue;
+    ASSERT_NEAR(through.rgb[i], 0.25 * solid.rgb[i] + 0.75 * all.rgb[i], 2.0);
+    ++behind;
+  }
+  EXPECT_GT(behind, 500);
+  // Signs, too: half as much as they are seen over half a body.
+  const auto pins = [](const char* more) {
+    return Bar({"glyphs.pins=true", "body.0.pin.0.top=1", more}).pixels();
+  };
+  EXPECT_GT(pins("body.0.look.opacity=0.25"), pins("body.0.look.opacity=1.0"));
+}
+
 /// The lines between the four triangles that a quadratic face is drawn by are none of its edges.
 TEST(Overlays, QuadraticTetsHaveTheLinesOfLinearOnes) {
   const Bar linear({"body.0.wireframe={ show = true, of = 'tets' }"}),

@@ -160,8 +160,7 @@ void settle_views(SceneDesc& s, RandomFill& random) {
     p.colormap = "same";
   }
   s.render.region.clear();
-  if (s.panel.empty() && s.render.width > 4 && s.render.height > 4)
-    s.render.region = {1, 0, s.render.width, 3};
+  if (s.render.width > 4 && s.render.height > 4) s.render.region = {1, 0, s.render.width, 3};
   if (!s.panel.empty() || !s.render.region.empty()) s.render.channels = {"depth"};
   if (s.render.channel_format == "png") s.render.channels = {"normal", "body_id"};  // of those that fit
 }
