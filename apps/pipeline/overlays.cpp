@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "apps/overlay/ghost.h"
+#include "apps/overlay/overlay.h"
 #include "apps/pipeline/build_scene.h"
 #include "apps/pipeline/surface_fields.h"
 
@@ -52,7 +53,10 @@ Overlays::Overlays(const SceneDesc& scene, const sim::Model& model, const std::v
 bool Overlays::has_any_in_world() const {
   const bool labels =
       std::any_of(labels_.begin(), labels_.end(), [](const Labels& l) { return !l.is_empty(); });
-  return has_any(wireframes_) || has_any(ghosts_) || labels || !glyphs_.is_empty();
+  const bool orientations = std::any_of(scene_.body.begin(), scene_.body.end(), [](const BodyDesc& b) {
+    return b.surface.face_orientation && b.surface.fill;
+  });
+  return has_any(wireframes_) || has_any(ghosts_) || labels || orientations || !glyphs_.is_empty();
 }
 
 void Overlays::see(int frame, const StateRecord& state, const sim::VecX& q) {
@@ -117,6 +121,49 @@ std::vector<float> Overlays::seen_through(const render::Camera& camera, const si
   return shares;
 }
 
+void Overlays::draw_face_orientations(render::Picture& picture, const View& view, const sim::VecX& q,
+                                      bool see_through_hide) const {
+  enum class Side : char { untold, outside, inside };
+  const render::Camera& camera = view.camera();
+  std::vector<Side> sides;  // of the items of view_of(), towards the eye
+  bool any = false;
+  for (std::size_t i = 0; i < drawn_.size(); ++i) {
+    if (drawn_[i].mesh.triangles.empty() || (is_see_through(i) && !see_through_hide)) continue;
+    const SurfaceDesc& surface = scene_.body[i].surface;
+    const std::vector<render::Vec3> x = positions_of(drawn_[i], q);
+    for (const auto& [a, b, c] : drawn_[i].mesh.triangles) {
+      const render::Vec3 normal = (x[b] - x[a]).cross(x[c] - x[a]);
+      const render::Vec3 to_eye =
+          camera.is_orthographic() ? render::Vec3(-camera.forward()) : render::Vec3(camera.position() - x[a]);
+      const bool outside = (normal.dot(to_eye) > 0.0F) != surface.flip;
+      sides.push_back(!surface.face_orientation ? Side::untold : outside ? Side::outside : Side::inside);
+    }
+    any = any || surface.face_orientation;
+  }
+  if (!any) return;
+  constexpr Color blue = {40, 90, 255}, red = {255, 40, 40};
+  constexpr double opacity = 0.55;
+  constexpr int n = ItemBuffer::samples;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int column = 0; column < picture.width; ++column) {
+      int outside = 0, inside = 0;
+      for (int s = 0; s < n * n; ++s) {
+        const int c = n * column + s % n, r = n * y + s / n;
+        const int item = view.items().item(c, r);
+        if (item == ItemBuffer::none) continue;
+        const Side side = sides[static_cast<std::size_t>(item)];
+        // What the ground is in front of is not seen.
+        if (side == Side::untold ||
+            !view.sees(ViewPoint{(c + 0.5) / n, (r + 0.5) / n, view.items().depth(c, r)}))
+          continue;
+        (side == Side::outside ? outside : inside) += 1;
+      }
+      if (outside > 0) blend(picture, column, y, blue, opacity * outside / (n * n));
+      if (inside > 0) blend(picture, column, y, red, opacity * inside / (n * n));
+    }
+  }
+}
+
 void Overlays::draw_ghosts(render::Picture& picture, const View& view) const {
   const sim::Points& X = model_.mesh().X;
   const Eigen::Map<const sim::VecX> rest(X.data(), X.size());
@@ -153,6 +200,7 @@ void Overlays::draw_in_world(render::Picture& picture, const render::Camera& cam
                              bool see_through_hide) const {
   const View view = view_of(camera, state.q, see_through_hide);
   const auto hides = [&](std::size_t body) { return see_through_hide || !is_see_through(body); };
+  draw_face_orientations(picture, view, state.q, see_through_hide);
   draw_ghosts(picture, view);
   draw_wireframes(picture, view, state.q, see_through_hide);
   glyphs_.draw(picture, view, state, most_, hides);
@@ -210,6 +258,11 @@ std::vector<std::string> Overlays::remarks() const {
     if (!body.surface.fill && shows_field(body)) {
       remarks.push_back(fmt::format("body.{}.look.field has no effect: the surface of '{}' is not drawn", i,
                                     body.physics.name));
+    }
+    if (!body.surface.fill && body.surface.face_orientation) {
+      remarks.push_back(
+          fmt::format("body.{}.surface.face_orientation has no effect: the surface of '{}' is not drawn", i,
+                      body.physics.name));
     }
     if (const std::optional<std::string> remark = labels_[i].remark(body.physics.name))
       remarks.push_back(*remark);

@@ -56,6 +56,8 @@ private:
   void draw_in_world(render::Picture&, const render::Camera&, const sim::State&, bool see_through_hide) const;
   /// How much of what is behind see-through bodies is seen in each pixel: what the nearest lets through.
   std::vector<float> seen_through(const render::Camera&, const sim::VecX& q) const;
+  /// Outsides blue, insides red, where they are seen.
+  void draw_face_orientations(render::Picture&, const View&, const sim::VecX& q, bool see_through_hide) const;
   void draw_ghosts(render::Picture&, const View&) const;
   void draw_wireframes(render::Picture&, const View&, const sim::VecX& q, bool see_through_hide) const;
   void draw_labels(render::Picture&, const View&, const sim::VecX& q) const;

@@ -146,6 +146,9 @@ void visit_surface(SurfaceDesc& s, KeyVisitor& v) {
   v.key({.name = "fill",
          .meaning = "false: nothing of the surface but its wireframe is drawn, and it has no shadow"},
         &s.fill);
+  v.key({.name = "face_orientation",
+         .meaning = "tints its outside blue and its inside red, over the picture; both are lit alike"},
+        &s.face_orientation);
 }
 
 void visit_body(BodyDesc& b, KeyVisitor& v) {

@@ -21,10 +21,11 @@ struct SurfaceDesc {
       mesh;  // fine mesh to embed (OBJ, OFF, PLY, STL), placed as the body is; empty: the tets' boundary
   double max_outside =
       0.01;  // of the body's bounding-box diagonal; a fine vertex further outside of the tets is an error
-  int subdivide = 0;   // how often by Loop's scheme
-  bool smooth = true;  // smooth normals; false: one a triangle
-  bool flip = false;   // its other side is the outside
-  bool fill = true;    // false: only its lines are drawn
+  int subdivide = 0;              // how often by Loop's scheme
+  bool smooth = true;             // smooth normals; false: one a triangle
+  bool flip = false;              // its other side is the outside
+  bool fill = true;               // false: only its lines are drawn
+  bool face_orientation = false;  // its outside and inside are tinted
 };
 
 /// A scalar field of a body's state, shown in the colours of its surface.

@@ -141,6 +141,26 @@ TEST(Overlays, AFlippedSurfaceIsInsideOut) {
   EXPECT_EQ(a[2], b[1]);
 }
 
+/// The sum of red less that of blue: over white, what is not tinted has none.
+int redness(const render::Picture& p) {
+  int sum = 0;
+  for (std::size_t i = 0; i < p.rgb.size(); i += 3) sum += p.rgb[i] - p.rgb[i + 2];
+  return sum;
+}
+
+TEST(Overlays, FaceOrientationTellsOutsideFromInside) {
+  const char* const on = "body.0.surface.face_orientation=true";
+  const int outside = redness(Bar({on}).picture()),
+            flipped = redness(Bar({on, "body.0.surface.flip=true"}).picture());
+  EXPECT_LT(outside, -10000);
+  EXPECT_NEAR(flipped, -outside, -0.02 * outside) << "the colours are each other's mirror";
+  EXPECT_EQ(redness(Bar({"body.0.surface.flip=true"}).picture()), 0);
+  const Bar unseen({on, "body.0.surface.fill=false", "body.0.wireframe.show=true"});
+  ASSERT_EQ(unseen.overlays.remarks().size(), 1U);
+  EXPECT_EQ(unseen.overlays.remarks()[0],
+            "body.0.surface.face_orientation has no effect: the surface of 'bar' is not drawn");
+}
+
 TEST(Overlays, AClipLeavesWholeTetsAndColorsTheCut) {
   const Bar whole({"body.0.surface.mesh=''"});
   const Bar cut({"clip={ point = [0, 0.3, 0], normal = [0, -1, 0], color = [1, 0.5, 0] }"});
