@@ -132,6 +132,19 @@ void Newton::assemble(const Model& model, const IncrementalPotential& phi, const
   if (phi.C != nullptr) H.add(phi.c, *phi.C);
 }
 
+/// By what is there at rest whatever has happened since, so that a run that is taken up again finds the same.
+void Newton::try_solvers(const Model& model, const IncrementalPotential& phi) {
+  IncrementalPotential at_rest;
+  at_rest.m = phi.m;
+  at_rest.a = phi.a;
+  const VecX q = Eigen::Map<const VecX>(model.mesh().X.data(), model.mesh().X.size());
+  at_rest.b = (1.0 - phi.a) * q;
+  assemble(model, at_rest, q, HessianKind::projected, H_);
+  VecX b = model.mass_times(VecX::Ones(q.size()));
+  pins().clear_pinned(b);
+  solver_.try_at_rest(phi.m, H_, b);
+}
+
 /// How exactly a system is to be solved: |g| is to fall to `tolerance` times what it is now, and in the end
 /// to `end`.
 struct Newton::Goal {
@@ -263,7 +276,8 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
   const Pins* held = phi.pins != nullptr ? phi.pins : &model.pins();
   if (held != pins_) solver_.analyze(model.pattern(), *held);
   pins_ = held;
-  solver_.begin(phi.m == 0.0);
+  if (solver_.needs_trial(phi.m)) try_solvers(model, phi);
+  solver_.begin(phi.m);
   NewtonReport report;
   const SolveCounts before = solver_.counts();
   const double farthest = kFarthest * (q.cwiseAbs().maxCoeff() + model.mesh().X.cwiseAbs().maxCoeff());
