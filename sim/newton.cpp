@@ -43,6 +43,7 @@ constexpr int kMaxBlindBacktracks = 8;    // and where only the residual does
 constexpr double kLoosest = 1e-3;         // tolerance of a linear system
 constexpr double kWhileCarrying = 1e-3;   // likewise, while held coordinates are on their way
 constexpr double kPartOfTolerance = 0.3;  // of Newton's, that a linear system need not be solved beyond
+constexpr double kLittleLeft = 0.02;      // part of |g| that is to be left, with which the Hessian is kept
 constexpr int kMaxCarries = 8;            // pieces in which the held coordinates may reach their places
 
 /// Where V is evaluated.
@@ -164,6 +165,14 @@ FactorStatus Newton::find_direction(const Model& model, const IncrementalPotenti
     if (lift.size() != 0 && status == FactorStatus::ok) direction += lift;
     return status;
   };
+  // The last few digits need no new Hessian: the point has hardly moved since the one before.
+  const bool keeps = goal.end >= kLittleLeft && has_fresh_hessian_ && lift.size() == 0;
+  has_fresh_hessian_ = !keeps;
+  if (keeps) {
+    const FactorStatus status = solve();
+    if (status == FactorStatus::ok) return status;
+    has_fresh_hessian_ = true;
+  }
   if (settings_.hessian == "projected") {
     assemble(model, phi, point.q, HessianKind::projected, H_);
     used_clamping_ = 1.0;
@@ -278,6 +287,7 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
   pins_ = held;
   if (solver_.needs_trial(phi.m)) try_solvers(model, phi);
   solver_.begin(phi.m);
+  has_fresh_hessian_ = false;
   NewtonReport report;
   const SolveCounts before = solver_.counts();
   const double farthest = kFarthest * (q.cwiseAbs().maxCoeff() + model.mesh().X.cwiseAbs().maxCoeff());

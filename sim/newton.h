@@ -73,6 +73,7 @@ private:
   const Pins* pins_;                               // that it is analyzed for
   BlockHessian H_;                                 // as it was solved with last
   std::optional<BlockHessian> exact_, projected_;  // made where H_ is not positive definite
+  bool has_fresh_hessian_ = false;                 // H_ is of the iteration before
   double used_clamping_ = 0.0;                     // of H_
 };
 
