@@ -14,6 +14,12 @@
 
 namespace lagomorph::sim {
 
+namespace {
+
+constexpr int kCoordinates = 1 << 14;  // of a piece of a vector
+
+}  // namespace
+
 CgReport conjugate_gradients(CgSystem& system, const VecX& b, const CgLimits& limits, VecX& x) {
   CgReport report;
   x.setZero(b.size());
@@ -35,20 +41,26 @@ CgReport conjugate_gradients(CgSystem& system, const VecX& b, const CgLimits& li
     bool hopeless = report.iterations >= limits.max_iterations || !(next.rz > 0.0);
     if (limits.probe > 0 && report.iterations % limits.probe == 0) {
       const double rate = std::log(std::min(report.residual, 0.99)) / report.iterations;
-      hopeless |= std::log(limits.goal) / rate > limits.max_iterations;
+      const double patience = 1.5 + 1.5 * limits.probe / report.iterations;
+      hopeless |= std::log(limits.goal) / rate > patience * limits.budget;
     }
     if (hopeless) {
       report.status = CgStatus::gave_up;
       return report;
     }
-    p = z + next.rz / rz * p;
+    const double beta = next.rz / rz;
+    parallel_for(static_cast<int>(p.size()), kCoordinates, [&](int begin, int end) {
+      p.segment(begin, end - begin) = z.segment(begin, end - begin) + beta * p.segment(begin, end - begin);
+    });
     rz = next.rz;
   }
 }
 
 namespace {
 
-constexpr int kRows = 1024;  // of a piece of work; sums are made piece by piece, whatever the threads
+constexpr int kRows = 256;  // of a piece of work; sums are made piece by piece, whatever the threads
+
+constexpr double kSameResidual = 1.001;  // over the tolerance, that is taken for it
 
 using Double4 = double __attribute__((vector_size(32), aligned(8)));
 
@@ -56,7 +68,7 @@ using Double4 = double __attribute__((vector_size(32), aligned(8)));
 /// the fourth of no use.
 LAGOMORPH_SIMD double multiply_rows(int begin, int end, const int* starts, const int* columns,
                                     const double* values, const double* p, double* y) {
-  double sum = 0.0;
+  Double4 sum = {0.0, 0.0, 0.0, 0.0};
   for (int i = begin; i < end; ++i) {
     Double4 a = {0.0, 0.0, 0.0, 0.0};
     Double4 b = a, c = a;
@@ -69,33 +81,61 @@ LAGOMORPH_SIMD double multiply_rows(int begin, int end, const int* starts, const
     }
     a += b + c;
     const std::ptrdiff_t at = 3 * static_cast<std::ptrdiff_t>(i);
-    for (int r = 0; r < 3; ++r) {
-      y[at + r] = a[r];
-      sum += p[at + r] * a[r];
-    }
+    for (int r = 0; r < 3; ++r) y[at + r] = a[r];
+    sum += a * Double4{p[at], p[at + 1], p[at + 2], 0.0};
   }
-  return sum;
+  return sum[0] + sum[1] + sum[2];
+}
+
+using Float4 = float __attribute__((vector_size(16), aligned(4), may_alias));
+
+/// The same with A and a copy of p in single precision.
+LAGOMORPH_SIMD double multiply_rounded_rows(int begin, int end, const int* starts, const int* columns,
+                                            const float* values, const float* rounded_p, const double* p,
+                                            double* y) {
+  Double4 sum = {0.0, 0.0, 0.0, 0.0};
+  for (int i = begin; i < end; ++i) {
+    Float4 a = {0.0F, 0.0F, 0.0F, 0.0F};
+    Float4 b = a, c = a;
+    for (int k = starts[i]; k < starts[i + 1]; ++k) {
+      const float* block = values + 9 * static_cast<std::ptrdiff_t>(k);
+      const float* x = rounded_p + 3 * static_cast<std::ptrdiff_t>(columns[k]);
+      a += *reinterpret_cast<const Float4*>(block) * x[0];
+      b += *reinterpret_cast<const Float4*>(block + 3) * x[1];
+      c += *reinterpret_cast<const Float4*>(block + 6) * x[2];
+    }
+    a += b + c;
+    const Double4 full = __builtin_convertvector(a, Double4);
+    const std::ptrdiff_t at = 3 * static_cast<std::ptrdiff_t>(i);
+    for (int r = 0; r < 3; ++r) y[at + r] = full[r];
+    sum += full * Double4{p[at], p[at + 1], p[at + 2], 0.0};
+  }
+  return sum[0] + sum[1] + sum[2];
 }
 
 /// x += alpha p, r -= alpha y, z = D⁻¹ r for vertices [begin, end).
 LAGOMORPH_SIMD CgSystem::Products update_rows(int begin, int end, double alpha, const double* inverses,
                                               const double* p, const double* y, double* x, double* r,
                                               double* z) {
-  CgSystem::Products sum;
   for (std::ptrdiff_t at = 3 * static_cast<std::ptrdiff_t>(begin); at < 3 * static_cast<std::ptrdiff_t>(end);
        ++at) {
     x[at] += alpha * p[at];
     r[at] -= alpha * y[at];
   }
+  Double4 rr = {0.0, 0.0, 0.0, 0.0};
+  Double4 rz = rr;
   for (int i = begin; i < end; ++i) {
     const double* d = inverses + 9 * static_cast<std::ptrdiff_t>(i);
     const std::ptrdiff_t at = 3 * static_cast<std::ptrdiff_t>(i);
-    const double r0 = r[at], r1 = r[at + 1], r2 = r[at + 2];
-    for (int k = 0; k < 3; ++k) z[at + k] = d[k] * r0 + d[k + 3] * r1 + d[k + 6] * r2;
-    sum.rr += r0 * r0 + r1 * r1 + r2 * r2;
-    sum.rz += r0 * z[at] + r1 * z[at + 1] + r2 * z[at + 2];
+    const Double4 ri = {r[at], r[at + 1], r[at + 2], 0.0};
+    const Double4 zi = *reinterpret_cast<const Double4*>(d) * ri[0] +
+                       *reinterpret_cast<const Double4*>(d + 3) * ri[1] +
+                       *reinterpret_cast<const Double4*>(d + 6) * ri[2];
+    for (int k = 0; k < 3; ++k) z[at + k] = zi[k];
+    rr += ri * ri;
+    rz += ri * zi;
   }
-  return sum;
+  return {rr[0] + rr[1] + rr[2], rz[0] + rz[1] + rz[2]};
 }
 
 /// Neighbours of each free vertex, by their places among the free ones, ascending.
@@ -190,12 +230,27 @@ bool invert_diagonal(const double* block, unsigned free, double* inverse) {
 
 class BlockJacobiCg::System : public CgSystem {
 public:
-  explicit System(const BlockJacobiCg& a) : a_(a), sums_(static_cast<std::size_t>(pieces(a))) {}
+  enum class Precision { single, full };
+  System(const BlockJacobiCg& a, Precision precision)
+      : a_(a), precision_(precision), sums_(static_cast<std::size_t>(pieces(a))) {
+    if (precision == Precision::single) rounded_p_.resize(3 * a.vertices_.size());
+  }
 
   double times(const VecX& p, VecX& y) override {
+    if (precision_ == Precision::full) {
+      return sum_of_pieces([&](int begin, int end) {
+               return Products{0.0, multiply_rows(begin, end, a_.starts_.data(), a_.columns_.data(),
+                                                  a_.values_.data(), p.data(), y.data())};
+             })
+          .rz;
+    }
+    parallel_for(static_cast<int>(p.size()), kCoordinates, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) rounded_p_[static_cast<std::size_t>(i)] = static_cast<float>(p[i]);
+    });
     return sum_of_pieces([&](int begin, int end) {
-             return Products{0.0, multiply_rows(begin, end, a_.starts_.data(), a_.columns_.data(),
-                                                a_.values_.data(), p.data(), y.data())};
+             return Products{
+                 0.0, multiply_rounded_rows(begin, end, a_.starts_.data(), a_.columns_.data(),
+                                            a_.rounded_.data(), rounded_p_.data(), p.data(), y.data())};
            })
         .rz;
   }
@@ -230,6 +285,8 @@ private:
   }
 
   const BlockJacobiCg& a_;
+  Precision precision_;
+  std::vector<float> rounded_p_;
   std::vector<Products> sums_;  // of each piece
 };
 
@@ -272,7 +329,8 @@ void BlockJacobiCg::analyze(std::shared_ptr<const BlockPattern> pattern, const P
       std::tie(columns_[k], sources_[k]) = entries[k];
   }
   values_.assign(9 * columns_.size() + 1, 0.0);
-  inverses_.assign(9 * order.size(), 0.0);
+  rounded_.assign(9 * columns_.size() + 3, 0.0F);
+  inverses_.assign(9 * order.size() + 1, 0.0);
 }
 
 bool BlockJacobiCg::set_matrix(const BlockHessian& H) {
@@ -307,6 +365,7 @@ bool BlockJacobiCg::set_row(const BlockHessian& H, std::size_t row) {
         for (int r = 0; r < 3; ++r)
           if ((free_rows >> r & free_columns >> c & 1U) == 0) block(r, c) = 0.0;
     }
+    for (std::size_t i = 9 * k; i < 9 * (k + 1); ++i) rounded_[i] = static_cast<float>(values_[i]);
     if (row == column && !invert_diagonal(block.data(), free_rows, inverses_.data() + 9 * row)) return false;
   }
   return true;
@@ -320,8 +379,28 @@ CgReport BlockJacobiCg::solve(const VecX& b, const CgLimits& limits, VecX& x) {
       rhs[3 * static_cast<Eigen::Index>(i) + k] =
           (free_axes_[i] >> k & 1) != 0 ? b[3 * vertices_[i] + k] : 0.0;
   }
-  System system(*this);
-  const CgReport report = conjugate_gradients(system, rhs, limits, solution);
+  System rounded(*this, System::Precision::single), full(*this, System::Precision::full);
+  CgReport report = conjugate_gradients(rounded, rhs, limits, solution);
+  const auto go_on = [&](const VecX& from, double tolerance) {
+    CgLimits rest = limits;
+    rest.tolerance = tolerance;
+    rest.goal = std::min(limits.goal * tolerance / limits.tolerance, 0.99);
+    rest.max_iterations = std::max(limits.max_iterations - report.iterations, 1);
+    VecX correction;
+    const CgReport more = conjugate_gradients(full, from, rest, correction);
+    report = {more.status, report.iterations + more.iterations, more.residual * from.norm() / rhs.norm()};
+    return correction;
+  };
+  if (report.status == CgStatus::negative_curvature) {
+    solution = go_on(rhs, limits.tolerance);
+  } else if (report.status == CgStatus::converged && report.iterations > 0) {
+    VecX r(rhs.size());
+    full.times(solution, r);
+    r = rhs - r;
+    report.residual = r.norm() / rhs.norm();
+    if (report.residual > kSameResidual * limits.tolerance)
+      solution += go_on(r, limits.tolerance / report.residual);
+  }
   x.setZero(b.size());
   for (std::size_t i = 0; i < vertices_.size(); ++i)
     x.segment<3>(3 * vertices_[i]) = solution.segment<3>(3 * static_cast<Eigen::Index>(i));

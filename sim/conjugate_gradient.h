@@ -25,10 +25,12 @@ struct CgReport {
 struct CgLimits {
   double tolerance = 1e-6;  // |b - H x| <= tolerance |b|
   int max_iterations = 1000;
-  /// Every so many iterations they also give up if, at the rate so far, it takes more than max_iterations to
-  /// bring the residual down to `goal`, which may be less than the tolerance. 0: never.
+  /// Every `probe` iterations, if not 0, they also give up when at the rate so far it takes them too long to
+  /// bring the residual down to `goal`, which may be less than the tolerance: 1.5 times `budget` iterations
+  /// in the end, and 3 times as many at the first probe, for the rate is slow at the beginning.
   int probe = 0;
   double goal = 0.0;
+  double budget = 0.0;
 };
 
 /// A symmetric positive definite system as conjugate gradients see it. Vectors are of whatever size and
@@ -49,7 +51,9 @@ public:
 CgReport conjugate_gradients(CgSystem&, const VecX& b, const CgLimits&, VecX& x);
 
 /// P H Pᵀ by rows of 3×3 blocks, both triangles, in an order that keeps neighbours together, preconditioned
-/// by the inverses of the diagonal blocks (block Jacobi).
+/// by the inverses of the diagonal blocks (block Jacobi). Products are in single precision, which is half the
+/// memory to go through, the vectors in double; what rounding took of the residual in the end, and any doubt
+/// whether the matrix is positive definite, is gone after in double.
 class BlockJacobiCg {
 public:
   /// Orders the free vertices. Made once a topology.
@@ -75,7 +79,8 @@ private:
   std::vector<int> columns_;              // places in vertices_
   std::vector<int> sources_;              // block of the pattern; ~block: transposed
   std::vector<double> values_;            // 9 a block, column by column, and one more
-  std::vector<double> inverses_;          // of the diagonal blocks, likewise
+  std::vector<float> rounded_;            // likewise, and three more
+  std::vector<double> inverses_;          // of the diagonal blocks, as values_
 };
 
 }  // namespace lagomorph::sim

@@ -73,11 +73,10 @@ Damping::Damping(const TetMesh& mesh, const std::vector<DampingSettings>& of_bod
   if (!is_damped) bodies_.clear();
   mass_blocks_ = std::move(mass_blocks);
   if (!linear.empty())
-    viscosity_.push_back(
-        std::make_unique<Elasticity<Viscosity, Tet4>>(mesh, linear, std::move(of_linear), pattern));
+    viscosity_.push_back(std::make_unique<Elasticity<Viscosity, Tet4>>(mesh, linear, of_linear, pattern));
   if (!quadratic.empty())
     viscosity_.push_back(
-        std::make_unique<Elasticity<Viscosity, Tet10>>(mesh, quadratic, std::move(of_quadratic), pattern));
+        std::make_unique<Elasticity<Viscosity, Tet10>>(mesh, quadratic, of_quadratic, pattern));
 }
 
 void Damping::assemble(const std::vector<std::unique_ptr<Energy>>& energies, const VecX& q,

@@ -12,9 +12,11 @@
 #include "sim/invariant_blocks.h"
 #include "sim/inversion.h"
 #include "sim/materials/energy_density.h"
+#include "sim/morton_order.h"
 #include "sim/parallel.h"
 #include "sim/stress_source.h"
 #include "sim/tet_gather.h"
+#include "sim/tet_lanes.h"
 #include "sim/tet_mesh.h"
 
 namespace lagomorph::sim {
@@ -24,16 +26,20 @@ namespace lagomorph::sim {
 template <EnergyDensity Material, FiniteElement Element = Tet4>
 class Elasticity : public Energy, public StressSource {
 public:
-  /// `elements` are tets of the mesh, `materials` theirs; `pattern` is that of the whole mesh.
-  Elasticity(const TetMesh& mesh, const std::vector<int>& elements, std::vector<Material> materials,
+  /// `elements` are tets of the mesh, `materials` theirs; `pattern` is that of the whole mesh. They are kept
+  /// in an order of their own.
+  Elasticity(const TetMesh& mesh, const std::vector<int>& elements, const std::vector<Material>& materials,
              const std::shared_ptr<const BlockPattern>& pattern)
-      : Elasticity(make_elements(mesh, elements), std::move(materials), pattern) {
-    tets_ = elements;
-  }
+      : Elasticity(mesh, elements, materials, morton_order(mesh, elements), pattern) {}
 
   std::string_view name() const override { return Material::kName; }
 
   double value(const VecX& q) const override {
+    if constexpr (kInLanes) {
+      std::vector<TetLanes::Lane> energies(lanes_.group_count());
+      for_each_group([&](std::size_t group) { set_energies(group, q, energies[group]); });
+      return TetLanes::sum(energies);
+    }
     std::vector<double> energy(elements_.size());
     for_each_element([&](std::size_t j) {
       const Edges x = edges(j, q);
@@ -50,6 +56,19 @@ public:
 
   /// f_j = -Σ_p vol_jp B_jpᵀ vec(∂ψ/∂F); the part of node a of its negative is Σ_p vol_jp (∂ψ/∂F) D_a.
   void add_gradient(const VecX& q, double scale, VecX& g) const override {
+    if constexpr (kInLanes) {
+      thread_local std::vector<double> kept;  // so that a step allocates nothing
+      kept.resize(std::max(kept.size(), kVectorSize * TetLanes::kLanes * lanes_.group_count()));
+      std::vector<double>& vectors = kept;  // the calling thread's
+      for_each_group([&](std::size_t group) {
+        TetLanes::Deformation at;
+        lanes_.deform(group, q, at);
+        lanes_.set_vectors(group, at, derivatives(group, at),
+                           vectors.data() + kVectorSize * TetLanes::kLanes * group);
+      });
+      gather_.add_vectors(vectors, scale, g);
+      return;
+    }
     std::vector<double> vectors(kVectorSize * elements_.size());
     for_each_element([&](std::size_t j) {
       Eigen::Map<Eigen::Matrix<double, 3, N>> g_j(vectors.data() + kVectorSize * j);
@@ -67,6 +86,12 @@ public:
   /// K_j = Σ_p vol_jp B_jpᵀ (∂²ψ/∂F²) B_jp.
   void add_hessian(const VecX& q, double scale, HessianKind kind, BlockHessian& H) const override {
     gather_.add_matrices(scale, H, [&](int begin, int end, double* matrices) {
+      if constexpr (kInLanes) {
+        if (kind == HessianKind::exact) {
+          set_matrices(static_cast<std::size_t>(begin), static_cast<std::size_t>(end), q, matrices);
+          return;
+        }
+      }
       for (int j = begin; j < end; ++j)
         set_matrix(static_cast<std::size_t>(j), q, kind,
                    matrices + kMatrixSize * static_cast<std::size_t>(j - begin));
@@ -122,17 +147,32 @@ private:
   static constexpr std::size_t kVectorSize = TetGather::vector_size(N),
                                kMatrixSize = TetGather::matrix_size(N);
   static constexpr int kCheap = 256;  // elements a task
+  /// Linear tets of a density of the invariants go eight at a time.
+  static constexpr bool kInLanes = N == 4 && P == 1 && requires(const Material& m, const Invariants& inv) {
+    m.psi(inv);
+    m.derivatives(inv);
+  };
   using Rule = ElementRule<N, Element::kPoints>;
   using Edges = Eigen::Matrix<double, 3, N - 1>;
 
-  Elasticity(std::vector<Rule> elements, std::vector<Material> materials,
-             const std::shared_ptr<const BlockPattern>& pattern)
-      : elements_(std::move(elements)),
-        materials_(std::move(materials)),
+  Elasticity(const TetMesh& mesh, const std::vector<int>& elements, const std::vector<Material>& materials,
+             const std::vector<std::size_t>& order, const std::shared_ptr<const BlockPattern>& pattern)
+      : tets_(in_order(elements, order)),
+        elements_(make_elements(mesh, tets_)),
+        materials_(in_order(materials, order)),
         gather_(nodes_of(elements_), N, pattern) {
+    if constexpr (kInLanes) lanes_ = TetLanes(elements_);
     for (std::size_t j = 0; j < elements_.size(); ++j)
       for (const double volume : elements_[j].volumes)
         stiffness_volume_ += volume * materials_[j].stiffness();
+  }
+
+  template <class T>
+  static std::vector<T> in_order(const std::vector<T>& all, const std::vector<std::size_t>& order) {
+    std::vector<T> ordered;
+    ordered.reserve(order.size());
+    for (const std::size_t i : order) ordered.push_back(all[i]);
+    return ordered;
   }
 
   static std::vector<Rule> make_elements(const TetMesh& mesh, const std::vector<int>& tets) {
@@ -157,6 +197,43 @@ private:
     for (std::size_t a = 1; a < nodes.size(); ++a)
       x.col(static_cast<Eigen::Index>(a) - 1) = q.segment<3>(3 * nodes[a]) - q.segment<3>(3 * nodes[0]);
     return x;
+  }
+
+  /// Of a tet of a group; what a lane without one does is of no use.
+  const Material& material(std::size_t group, std::size_t lane) const {
+    return materials_[std::min(TetLanes::kLanes * group + lane, materials_.size() - 1)];
+  }
+
+  void set_energies(std::size_t group, const VecX& q, TetLanes::Lane& energies) const {
+    TetLanes::Deformation at;
+    lanes_.deform(group, q, at);
+    const TetLanes::Lane& volumes = lanes_.volumes(group);
+    for (std::size_t l = 0; l < TetLanes::kLanes; ++l)
+      energies[l] =
+          volumes[l] > 0.0 ? volumes[l] * material(group, l).psi(Invariants(at.I_C[l], at.J[l])) : 0.0;
+  }
+
+  TetLanes::Derivatives derivatives(std::size_t group, const TetLanes::Deformation& at) const {
+    TetLanes::Derivatives d;
+    for (std::size_t l = 0; l < TetLanes::kLanes; ++l) {
+      const InvariantDerivatives of = material(group, l).derivatives(Invariants(at.I_C[l], at.J[l]));
+      d.I[l] = of.I;
+      d.J[l] = of.J;
+      d.II[l] = of.II;
+      d.IJ[l] = of.IJ;
+      d.JJ[l] = of.JJ;
+    }
+    return d;
+  }
+
+  /// Of elements [begin, end); `begin` begins a group, and there is room for the whole of the last.
+  void set_matrices(std::size_t begin, std::size_t end, const VecX& q, double* matrices) const {
+    for (std::size_t j = begin; j < end; j += TetLanes::kLanes, matrices += TetLanes::kLanes * kMatrixSize) {
+      const std::size_t group = j / TetLanes::kLanes;
+      TetLanes::Deformation at;
+      lanes_.deform(group, q, at);
+      lanes_.set_matrices(group, at, derivatives(group, at), matrices);
+    }
   }
 
   void set_matrix(std::size_t j, const VecX& q, HessianKind kind, double* blocks) const {
@@ -186,8 +263,17 @@ private:
     });
   }
 
+  template <class Body>
+  void for_each_group(Body&& body) const {
+    constexpr int kGroups = kCheap / static_cast<int>(TetLanes::kLanes);
+    parallel_for(static_cast<int>(lanes_.group_count()), kGroups, [&](int begin, int end) {
+      for (int group = begin; group < end; ++group) body(static_cast<std::size_t>(group));
+    });
+  }
+
+  std::vector<int> tets_;  // of the mesh, in the order of the elements here
   std::vector<Rule> elements_;
-  std::vector<int> tets_;  // of the mesh, which these are
+  TetLanes lanes_;  // the same, where kInLanes
   std::vector<Material> materials_;
   TetGather gather_;
   double stiffness_volume_ = 0.0;  // Σ vol_j · stiffness [J]

@@ -6,6 +6,7 @@
 #include "sim/linear_solver.h"
 #include "sim/newton.h"
 #include "sim/solve_counts.h"
+#include "sim/system_solver.h"
 
 namespace lagomorph::sim {
 
@@ -13,6 +14,7 @@ namespace {
 
 /// How often a solution is corrected by its own residual. An LDLᵀ without pivoting may need it.
 constexpr int kMaxRefinements = 5;
+constexpr double kPartOfItsTolerance = 0.3;  // of the step's, that a system is solved to
 
 /// (M + h² K) q̇1 = M q̇0 - h ∂V/∂q, q1 = q0 + h q̇1, with K = ∂²V/∂q² and ∂V/∂q at q0: the first Newton
 /// iteration of backward Euler from q0 on; loads at the end of the step. K is exact, or projected element by
@@ -23,7 +25,8 @@ public:
   LinearlyImplicitEuler(const SolverSettings& settings, const Model& model)
       : tolerance_((check(settings), settings.tolerance)),
         kind_(settings.hessian == "projected" ? HessianKind::projected : HessianKind::exact),
-        linear_solver_(settings.blas_threads),
+        solver_(settings),
+        indefinite_(settings.blas_threads),
         A_(model.pattern()) {
     if (!model.damping().is_none()) C_.emplace(model.pattern());
   }
@@ -34,13 +37,16 @@ public:
   StepReport step(const Model& model, State& state, double h) override {
     const Held& held = model.held(state.t + 0.5 * h);
     hold(model, held.pins());
+    if (solver_.needs_trial(h)) try_solvers(model, h);
+    solver_.begin(h);
     const VecX load = model.load_force(state.t + h);
     const VecX b = assemble(model, state, load, h);
     if (!b.allFinite()) return {StepStatus::not_finite, 0, 0.0, h};
-    if (!factorize()) return {StepStatus::not_positive, 1, 0.0, h};
     VecX q1 = state.q;
     if (held.is_driven()) held.place(state.t + h, q1);
-    VecX qdot1 = (q1 - state.q) / h;  // where driven; elsewhere zero
+    VecX qdot1 = state.qdot;
+    pins_->clear_pinned(qdot1);
+    qdot1 += pins_->pinned_part((q1 - state.q) / h);
     StepReport report = solve(model, b, h, qdot1);
     if (!is_good(report.status)) return report;
     q1 = state.q + h * qdot1;
@@ -59,8 +65,20 @@ public:
 private:
   void hold(const Model& model, const Pins& pins) {
     if (pins_ == &pins) return;
-    linear_solver_.analyze(model.pattern(), pins);
+    solver_.analyze(model.pattern(), pins);
+    is_analyzed_ = false;
     pins_ = &pins;
+  }
+
+  /// By A at rest.
+  void try_solvers(const Model& model, double h) {
+    const VecX q = Eigen::Map<const VecX>(model.mesh().X.data(), model.mesh().X.size());
+    A_.set_zero();
+    for (const auto& term : model.energies()) term->add_hessian(q, h * h, HessianKind::projected, A_);
+    model.add_mass(1.0, A_);
+    VecX b = model.mass_times(VecX::Ones(q.size()));
+    pins_->clear_pinned(b);
+    solver_.try_at_rest(h, A_, b);
   }
 
   /// Makes A = M + h² K + h C and returns M q̇0 - h ∂V/∂q + h f. [kg m/s]
@@ -80,42 +98,47 @@ private:
     return model.mass_times(state.qdot) - h * g;
   }
 
-  bool factorize() {
-    ++solves_.factorizations;
-    FactorStatus status = linear_solver_.factorize(A_);
-    if (status == FactorStatus::not_positive_definite) {
-      ++solves_.factorizations;
-      status = linear_solver_.factorize_indefinite(A_);
+  /// A x = r over the free coordinates, to `tolerance` |r|, or as exactly as an LDLᵀ does where A is not
+  /// positive definite. False when there is none.
+  bool solve_once(const Model& model, const VecX& r, double tolerance, VecX& x) {
+    if (!is_indefinite_) {
+      const FactorStatus status = solver_.solve(A_, r, tolerance, tolerance, x);
+      if (status == FactorStatus::ok) return true;
+      if (!is_analyzed_) indefinite_.analyze(model.pattern(), *pins_);
+      is_analyzed_ = true;
+      ++indefinite_factorizations_;
+      if (indefinite_.factorize_indefinite(A_) != FactorStatus::ok) return false;
+      is_indefinite_ = true;
     }
-    return status == FactorStatus::ok;
+    indefinite_.solve(r, x);
+    return true;
   }
 
-  /// Solves A q̇1 = b, with q̇1 as it comes where held, and corrects q̇1 by its residual, as a force, while that
-  /// is above the tolerance and falls.
+  /// Solves A q̇1 = b from q̇1 on, which stays as it comes where held, and corrects it by its residual, as a
+  /// force, while that is above the tolerance and falls.
   StepReport solve(const Model& model, const VecX& b, double h, VecX& qdot1) {
+    const SolveCounts before = solver_.counts();
+    is_indefinite_ = false;
+    indefinite_factorizations_ = 0;
     double reference = pins_->free_norm(model.gravity_force());
     if (reference == 0.0) reference = pins_->free_norm(b) / h;
-    const auto force_norm = [&](const VecX& r) { return pins_->free_norm(r) / h; };
-    VecX correction;
-    if (qdot1.isZero(0.0)) {
-      linear_solver_.solve(b, qdot1);
-    } else {
-      linear_solver_.solve(b - A_.times(qdot1), correction);
-      qdot1 += correction;
-    }
-    VecX r = b - A_.times(qdot1);
+    const auto force_norm = [&](const VecX& of) { return pins_->free_norm(of) / h; };
+    VecX correction, r = b - A_.times(qdot1);
     double norm = force_norm(r);
-    for (int i = 0; i < kMaxRefinements && norm > tolerance_ * reference; ++i) {
-      linear_solver_.solve(r, correction);
+    for (int i = 0; i <= kMaxRefinements && norm > kPartOfItsTolerance * tolerance_ * reference; ++i) {
+      if (i > 0 && norm <= tolerance_ * reference) break;
+      const double enough = kPartOfItsTolerance * tolerance_ * reference / norm;
+      if (!solve_once(model, r, enough, correction)) return {StepStatus::not_positive, 1, 0.0, h};
       const VecX refined = qdot1 + correction;
       r = b - A_.times(refined);
       const double refined_norm = force_norm(r);
-      if (!(refined_norm < norm)) break;
+      if (i > 0 && !(refined_norm < norm)) break;
       qdot1 = refined;
       norm = refined_norm;
     }
     StepReport report{StepStatus::converged, 1, reference > 0.0 ? norm / reference : 0.0, h};
-    report.solves = std::exchange(solves_, {});
+    report.solves = solver_.counts() - before;
+    report.solves.factorizations += indefinite_factorizations_;
     if (!std::isfinite(norm)) {
       report.status = StepStatus::not_finite;
     } else if (norm > tolerance_ * reference) {
@@ -127,8 +150,11 @@ private:
 
   double tolerance_;
   HessianKind kind_;
-  LinearSolver linear_solver_;
-  SolveCounts solves_;          // of the step
+  SystemSolver solver_;
+  LinearSolver indefinite_;     // for an A that is not positive definite
+  bool is_analyzed_ = false;    // that one
+  bool is_indefinite_ = false;  // A of this step
+  int indefinite_factorizations_ = 0;
   const Pins* pins_ = nullptr;  // that it is analyzed for
   BlockHessian A_;
   std::optional<BlockHessian> C_;  // of the step, when anything is damped

@@ -43,6 +43,7 @@ constexpr int kMaxBlindBacktracks = 8;    // and where only the residual does
 constexpr double kLoosest = 1e-3;         // tolerance of a linear system
 constexpr double kWhileCarrying = 1e-3;   // likewise, while held coordinates are on their way
 constexpr double kPartOfTolerance = 0.3;  // of Newton's, that a linear system need not be solved beyond
+constexpr double kLittleLeft = 0.02;      // part of |g| that is to be left, with which the Hessian is kept
 constexpr int kMaxCarries = 8;            // pieces in which the held coordinates may reach their places
 
 /// Where V is evaluated.
@@ -132,6 +133,19 @@ void Newton::assemble(const Model& model, const IncrementalPotential& phi, const
   if (phi.C != nullptr) H.add(phi.c, *phi.C);
 }
 
+/// By what is there at rest whatever has happened since, so that a run that is taken up again finds the same.
+void Newton::try_solvers(const Model& model, const IncrementalPotential& phi) {
+  IncrementalPotential at_rest;
+  at_rest.m = phi.m;
+  at_rest.a = phi.a;
+  const VecX q = Eigen::Map<const VecX>(model.mesh().X.data(), model.mesh().X.size());
+  at_rest.b = (1.0 - phi.a) * q;
+  assemble(model, at_rest, q, HessianKind::projected, H_);
+  VecX b = model.mass_times(VecX::Ones(q.size()));
+  pins().clear_pinned(b);
+  solver_.try_at_rest(phi.m, H_, b);
+}
+
 /// How exactly a system is to be solved: |g| is to fall to `tolerance` times what it is now, and in the end
 /// to `end`.
 struct Newton::Goal {
@@ -151,6 +165,14 @@ FactorStatus Newton::find_direction(const Model& model, const IncrementalPotenti
     if (lift.size() != 0 && status == FactorStatus::ok) direction += lift;
     return status;
   };
+  // The last few digits need no new Hessian: the point has hardly moved since the one before.
+  const bool keeps = goal.end >= kLittleLeft && has_fresh_hessian_ && lift.size() == 0;
+  has_fresh_hessian_ = !keeps;
+  if (keeps) {
+    const FactorStatus status = solve();
+    if (status == FactorStatus::ok) return status;
+    has_fresh_hessian_ = true;
+  }
   if (settings_.hessian == "projected") {
     assemble(model, phi, point.q, HessianKind::projected, H_);
     used_clamping_ = 1.0;
@@ -263,7 +285,9 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
   const Pins* held = phi.pins != nullptr ? phi.pins : &model.pins();
   if (held != pins_) solver_.analyze(model.pattern(), *held);
   pins_ = held;
-  solver_.begin(phi.m == 0.0);
+  if (solver_.needs_trial(phi.m)) try_solvers(model, phi);
+  solver_.begin(phi.m);
+  has_fresh_hessian_ = false;
   NewtonReport report;
   const SolveCounts before = solver_.counts();
   const double farthest = kFarthest * (q.cwiseAbs().maxCoeff() + model.mesh().X.cwiseAbs().maxCoeff());

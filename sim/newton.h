@@ -56,6 +56,7 @@ private:
   struct Point;
   Point evaluate(const Model&, const IncrementalPotential&, VecX q) const;
   void assemble(const Model&, const IncrementalPotential&, const VecX& q, HessianKind, BlockHessian& H) const;
+  void try_solvers(const Model&, const IncrementalPotential&);
   struct Goal;
   FactorStatus find_direction(const Model&, const IncrementalPotential&, const Point&, const VecX& lift,
                               const Goal&, double& clamping, VecX& direction);
@@ -72,6 +73,7 @@ private:
   const Pins* pins_;                               // that it is analyzed for
   BlockHessian H_;                                 // as it was solved with last
   std::optional<BlockHessian> exact_, projected_;  // made where H_ is not positive definite
+  bool has_fresh_hessian_ = false;                 // H_ is of the iteration before
   double used_clamping_ = 0.0;                     // of H_
 };
 

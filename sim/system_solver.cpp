@@ -7,20 +7,21 @@ namespace lagomorph::sim {
 
 namespace {
 
-// Weights of the work, in nanoseconds on the machine that they were taken on (AMD EPYC, OpenBLAS's AVX-512
-// kernel): only their ratios matter.
-constexpr double kPerBlock = 1.7;           // of a product and the vectors of an iteration
-constexpr double kPerFlop = 0.03;           // of a factorization
-constexpr double kPerNonzero = 10.0;        // of a factorization, besides its operations
-constexpr double kPerNonzeroOfSolve = 1.6;  // of forward and backward substitution
+// Weights of the work, in nanoseconds on the machine that they were taken on (Intel Xeon, two threads,
+// OpenBLAS's AVX-512 kernel): only their ratios matter.
+constexpr double kPerBlock = 2.2;            // of a product and the vectors of an iteration
+constexpr double kPerFlop = 0.03;            // of a factorization
+constexpr double kPerNonzero = 8.0;          // of a factorization, besides its operations
+constexpr double kPerNonzeroOfSolve = 0.95;  // of forward and backward substitution
 
 /// Of a bunny's factor in n free vertices by nested dissection, within a factor of two from 1,000 to 40,000.
-double expected_flops(double n) { return 50.0 * n * n; }
-double expected_nonzeros(double n) { return 30.0 * std::pow(n, 4.0 / 3.0); }
+double expected_flops(double n) { return 60.0 * n * n; }
+double expected_nonzeros(double n) { return 34.0 * std::pow(n, 4.0 / 3.0); }
 
-constexpr int kProbe = 32;                   // iterations after which CG asks itself whether it pays
+constexpr double kSolves = 5.0;              // with a factor that a minimization takes until its end
 constexpr double kFewestIterations = 100.0;  // that a factorization must cost for CG to be tried at all
 constexpr int kMostIterations = 20000;
+constexpr double kTrialTolerance = 1e-3, kTrials = 2.2;  // of these a minimization to 3e-7 is made
 
 /// H preconditioned by a factor of another matrix.
 class FactorCg : public CgSystem {
@@ -57,22 +58,44 @@ void SystemSolver::analyze(std::shared_ptr<const BlockPattern> pattern, const Pi
   pins_ = &pins;
   cg_ = BlockJacobiCg();
   factor_is_analyzed_ = false;
-  begin(false);
+  trials_.clear();
 }
 
-void SystemSolver::begin(bool may_be_singular) {
-  const bool pays = cg_budget() >= kFewestIterations && !may_be_singular;
-  way_ = may_iterate_ && (pays || !may_factorize_) ? Way::cg : Way::factor;
-  keeps_factor_ = !may_be_singular;
+bool SystemSolver::needs_trial(double m) const {
+  if (!may_choose() || m == 0.0 || cg_budget() < kFewestIterations) return false;
+  return std::none_of(trials_.begin(), trials_.end(), [&](const Trial& t) { return t.m == m; });
+}
+
+void SystemSolver::try_at_rest(double m, const BlockHessian& H, const VecX& b) {
+  if (!cg_.is_analyzed()) cg_.analyze(pattern_, *pins_);
+  Way way = Way::cg;
+  if (cg_.set_matrix(H)) {
+    VecX x;
+    const int most = static_cast<int>(std::min<double>(cg_budget() / kTrials, kMostIterations));
+    if (cg_.solve(b, {kTrialTolerance, most}, x).status == CgStatus::gave_up) way = Way::factor;
+  }
+  trials_.push_back({m, way});
+}
+
+void SystemSolver::begin(double m) {
+  if (may_choose()) {
+    const auto tried = std::find_if(trials_.begin(), trials_.end(), [&](const Trial& t) { return t.m == m; });
+    way_ = tried != trials_.end() ? tried->way : Way::factor;
+  } else {
+    way_ = may_iterate_ ? Way::cg : Way::factor;
+  }
+  keeps_factor_ = m != 0.0;
   has_factor_ = false;
 }
 
-/// Iterations that cost what a factorization does.
+/// Iterations that cost what a minimization by a factor does.
 double SystemSolver::cg_budget() const {
   const auto n = static_cast<double>(pins_->free_vertices().size());
   if (n == 0.0) return 0.0;
   const double blocks = 2.0 * pattern_->block_count() * n / pattern_->vertex_count();
-  return (kPerFlop * expected_flops(n) + kPerNonzero * expected_nonzeros(n)) / (kPerBlock * blocks);
+  const double nonzeros = expected_nonzeros(n);
+  return (kPerFlop * expected_flops(n) + (kPerNonzero + kSolves * kPerNonzeroOfSolve) * nonzeros) /
+         (kPerBlock * blocks);
 }
 
 FactorStatus SystemSolver::solve(const BlockHessian& H, const VecX& b, double tolerance, double goal,
@@ -82,8 +105,11 @@ FactorStatus SystemSolver::solve(const BlockHessian& H, const VecX& b, double to
   if (!cg_.set_matrix(H)) return FactorStatus::not_positive_definite;
   CgLimits limits{tolerance, kMostIterations};
   if (may_factorize_) {
-    limits.max_iterations = static_cast<int>(std::min<double>(cg_budget(), kMostIterations));
-    limits.probe = kProbe;
+    limits.budget = cg_budget();
+    limits.max_iterations = static_cast<int>(std::min<double>(2.0 * limits.budget, kMostIterations));
+    // Half as many vertices apart are the ends of a body, and it takes as many iterations that they hear of
+    // each other.
+    limits.probe = static_cast<int>(2.0 * std::cbrt(static_cast<double>(pins_->free_vertices().size()))) + 1;
     limits.goal = goal;
   }
   const CgReport report = cg_.solve(b, limits, x);

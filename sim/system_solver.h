@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "sim/block_hessian.h"
 #include "sim/conjugate_gradient.h"
@@ -16,20 +17,25 @@ namespace lagomorph::sim {
 /// - "cg": conjugate gradients preconditioned by the diagonal's 3×3 blocks.
 /// - "cholmod": a Cholesky factorization of a minimization's first matrix; of those after it only when
 ///   conjugate gradients preconditioned by that factor would cost more.
-/// - "auto": conjugate gradients while what they still ask for, by counted blocks, is less work than a
-///   factorization, by an estimate of its nonzeros and operations; then the factor. No clock is asked: the
-///   way is a function of the matrices, and so the same on a busy machine.
+/// - "auto": the one of these that a trial on the bodies at rest finds to be less work, by counted iterations
+///   and blocks and by an estimate of the factor's nonzeros and operations; conjugate gradients only while
+///   what they still ask for does not belie it. No clock is asked: the way is a function of the matrices, and
+///   so the same on a busy machine.
 ///
-/// Nothing is carried from one minimization to the next, so that a run that is taken up again goes the same
-/// way.
+/// Nothing is carried from one minimization to the next but that trial's outcome, which is a function of the
+/// model alone, so that a run that is taken up again goes the same way.
 class SystemSolver {
 public:
   explicit SystemSolver(const SolverSettings&);
   /// Of a topology and its pins; what is made from them is made when it is first needed.
   void analyze(std::shared_ptr<const BlockPattern>, const Pins&);
-  /// Begins a minimization. Where its matrices may be singular, each is factorized, unless solver.linear =
-  /// "cg".
-  void begin(bool may_be_singular);
+  /// Whether try_at_rest() is to be called before a minimization with m/2 qᵀM q in it begins. m > 0.
+  bool needs_trial(double m) const;
+  /// `H` and `b` as they are at rest: decides how minimizations with this m begin.
+  void try_at_rest(double m, const BlockHessian& H, const VecX& b);
+  /// Begins a minimization. Where m is 0 its matrices may be singular and each is factorized, unless
+  /// solver.linear = "cg".
+  void begin(double m);
   /// x = Pᵀ (P H Pᵀ)⁻¹ P b, 3n, so that |P (b - H x)| is about `tolerance` |P b| or less. `goal` <= tolerance
   /// is what the minimization as a whole still asks for. x goes downhill of ½ xᵀHx - bᵀx.
   FactorStatus solve(const BlockHessian& H, const VecX& b, double tolerance, double goal, VecX& x);
@@ -41,6 +47,7 @@ private:
   enum class Way { cg, factor };
   FactorStatus solve_by_factor(const BlockHessian& H, const VecX& b, double tolerance, VecX& x);
   double cg_budget() const;
+  bool may_choose() const { return may_factorize_ && may_iterate_; }
 
   bool may_factorize_, may_iterate_;
   LinearSolver factor_;
@@ -48,6 +55,11 @@ private:
   std::shared_ptr<const BlockPattern> pattern_;
   const Pins* pins_ = nullptr;
   bool factor_is_analyzed_ = false;
+  struct Trial {
+    double m;
+    Way way;
+  };
+  std::vector<Trial> trials_;  // for these pins
   // Of this minimization:
   Way way_ = Way::cg;
   bool has_factor_ = false, keeps_factor_ = true;

@@ -5,14 +5,50 @@
 #include <utility>
 
 #include "sim/parallel.h"
+#include "sim/simd.h"
 
 namespace lagomorph::sim {
 
 namespace {
 
 constexpr int kGrain = 512;
-constexpr int kBatch = 512;  // elements: of linear tets, 360 kB of matrices
-constexpr int kFilled = 64;  // elements a task
+constexpr std::size_t kBatchDoubles = 23040;  // of matrices: 256 linear tets, a part of a core's cache
+
+using Block8 = double __attribute__((vector_size(64), aligned(8), may_alias));
+
+/// Sums [begin, end) of blocks of nine doubles.
+LAGOMORPH_SIMD void sum_blocks(int begin, int end, const int* starts, const int* sources, const double* from,
+                               double* sums) {
+  for (int t = begin; t < end; ++t) {
+    Block8 sum = {};
+    double last = 0.0;
+    for (int s = starts[t]; s < starts[t + 1]; ++s) {
+      const double* block = from + 9 * static_cast<std::ptrdiff_t>(sources[s]);
+      sum += *reinterpret_cast<const Block8*>(block);
+      last += block[8];
+    }
+    double* to = sums + 9 * static_cast<std::ptrdiff_t>(t);
+    *reinterpret_cast<Block8*>(to) = sum;
+    to[8] = last;
+  }
+}
+
+/// The same, times `scale` and added to blocks that are there.
+LAGOMORPH_SIMD void add_sums_of_blocks(int begin, int end, const int* starts, const int* sources,
+                                       const double* from, double scale, double* blocks) {
+  for (int t = begin; t < end; ++t) {
+    Block8 sum = {};
+    double last = 0.0;
+    for (int s = starts[t]; s < starts[t + 1]; ++s) {
+      const double* block = from + 9 * static_cast<std::ptrdiff_t>(sources[s]);
+      sum += *reinterpret_cast<const Block8*>(block);
+      last += block[8];
+    }
+    double* to = blocks + 9 * static_cast<std::ptrdiff_t>(t);
+    *reinterpret_cast<Block8*>(to) += scale * sum;
+    to[8] += scale * last;
+  }
+}
 
 /// Turns "source s adds to target targets[s]" into the sources of each target, ascending.
 void invert(const std::vector<int>& targets, int target_count, std::vector<int>& starts,
@@ -32,14 +68,16 @@ TetGather::TetGather(const std::vector<int>& nodes, int nodes_per_element,
                      std::shared_ptr<const BlockPattern> pattern)
     : pattern_(std::move(pattern)),
       matrix_size_(matrix_size(nodes_per_element)),
-      element_count_(static_cast<int>(nodes.size()) / nodes_per_element) {
+      element_count_(static_cast<int>(nodes.size()) / nodes_per_element),
+      batch_(kGroup * std::max(static_cast<int>(kBatchDoubles / matrix_size_) / kGroup, 1)) {
   invert(nodes, pattern_->vertex_count(), vertex_starts_, vertex_sources_);
   const auto size = static_cast<std::size_t>(nodes_per_element);
   batch_starts_.push_back(0);
+  std::vector<int> blocks;                     // of each sum
   std::vector<std::pair<int, int>> additions;  // block, source within the batch
-  for (int first = 0; first < element_count_; first += kBatch) {
+  for (int first = 0; first < element_count_; first += batch_) {
     additions.clear();
-    const auto last = static_cast<std::size_t>(std::min(first + kBatch, element_count_));
+    const auto last = static_cast<std::size_t>(std::min(first + batch_, element_count_));
     for (std::size_t j = static_cast<std::size_t>(first); j < last; ++j) {
       for (std::size_t b = 0; b < size; ++b)
         for (std::size_t a = 0; a <= b; ++a)
@@ -48,15 +86,16 @@ TetGather::TetGather(const std::vector<int>& nodes, int nodes_per_element,
     }
     std::sort(additions.begin(), additions.end());
     for (const auto& [block, source] : additions) {
-      if (static_cast<int>(targets_.size()) == batch_starts_.back() || targets_.back() != block) {
-        targets_.push_back(block);
+      if (static_cast<int>(blocks.size()) == batch_starts_.back() || blocks.back() != block) {
+        blocks.push_back(block);
         source_starts_.push_back(static_cast<int>(sources_.size()));
       }
       sources_.push_back(source);
     }
-    batch_starts_.push_back(static_cast<int>(targets_.size()));
+    batch_starts_.push_back(static_cast<int>(blocks.size()));
   }
   source_starts_.push_back(static_cast<int>(sources_.size()));
+  invert(blocks, pattern_->block_count(), block_starts_, block_sums_);
 }
 
 void TetGather::add_vectors(const std::vector<double>& element_vectors, double scale, VecX& g) const {
@@ -74,25 +113,22 @@ void TetGather::add_vectors(const std::vector<double>& element_vectors, double s
 void TetGather::add_matrices(double scale, BlockHessian& H,
                              const std::function<void(int begin, int end, double* matrices)>& fill) const {
   assert(&H.pattern() == pattern_.get());
-  std::vector<double>& matrices = H.scratch();
-  matrices.resize(std::max(matrices.size(), matrix_size_ * static_cast<std::size_t>(kBatch)));
-  for (std::size_t batch = 0; batch + 1 < batch_starts_.size(); ++batch) {
-    const int first = static_cast<int>(batch) * kBatch;
-    parallel_for(std::min(kBatch, element_count_ - first), kFilled, [&](int begin, int end) {
-      fill(first + begin, first + end, matrices.data() + matrix_size_ * static_cast<std::size_t>(begin));
-    });
-    const int first_target = batch_starts_[batch];
-    parallel_for(batch_starts_[batch + 1] - first_target, kGrain, [&](int begin, int end) {
-      for (int t = first_target + begin; t < first_target + end; ++t) {
-        Mat3 sum = Mat3::Zero();
-        for (int s = source_starts_[static_cast<std::size_t>(t)];
-             s < source_starts_[static_cast<std::size_t>(t) + 1]; ++s)
-          sum += Eigen::Map<const Mat3>(
-              matrices.data() + 9 * static_cast<std::ptrdiff_t>(sources_[static_cast<std::size_t>(s)]));
-        H.block(targets_[static_cast<std::size_t>(t)]) += scale * sum;
-      }
-    });
-  }
+  std::vector<double>& sums = H.scratch();
+  sums.resize(std::max(sums.size(), 9 * static_cast<std::size_t>(batch_starts_.back())));
+  parallel_for(static_cast<int>(batch_starts_.size()) - 1, 1, [&](int begin, int end) {
+    thread_local std::vector<double> matrices;  // kept, so that a step allocates nothing
+    matrices.resize(std::max(matrices.size(), matrix_size_ * static_cast<std::size_t>(batch_)));
+    for (int batch = begin; batch < end; ++batch) {
+      fill(batch_ * batch, std::min(batch_ * (batch + 1), element_count_), matrices.data());
+      sum_blocks(batch_starts_[static_cast<std::size_t>(batch)],
+                 batch_starts_[static_cast<std::size_t>(batch) + 1], source_starts_.data(), sources_.data(),
+                 matrices.data(), sums.data());
+    }
+  });
+  parallel_for(pattern_->block_count(), kGrain, [&](int begin, int end) {
+    add_sums_of_blocks(begin, end, block_starts_.data(), block_sums_.data(), sums.data(), scale,
+                       H.block(0).data());
+  });
 }
 
 }  // namespace lagomorph::sim

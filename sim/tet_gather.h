@@ -26,23 +26,26 @@ public:
   /// Place of pair (a, b), a <= b, among them: (0,0) (0,1) (1,1) (0,2) (1,2) (2,2) (0,3) ...
   static constexpr int pair(int a, int b) { return b * (b + 1) / 2 + a; }
 
+  /// `fill` is asked for whole groups of so many elements, counted from the first, but for the last group.
+  static constexpr int kGroup = 8;
+
   /// g += scale · Σ_j E_jᵀ f_j.
   void add_vectors(const std::vector<double>& element_vectors, double scale, VecX& g) const;
   /// H += scale · Σ_j E_jᵀ K_j E_j. H must be on the same pattern. `fill(begin, end, matrices)` makes those
-  /// of elements [begin, end), on any thread; they are taken up a batch at a time, while they are still in
-  /// the cache.
+  /// of elements [begin, end), on any thread, with room for whole groups. A batch's are summed while they are
+  /// still in the cache of the thread that made them, then these sums.
   void add_matrices(double scale, BlockHessian& H,
                     const std::function<void(int begin, int end, double* matrices)>& fill) const;
 
 private:
   std::shared_ptr<const BlockPattern> pattern_;
   std::size_t matrix_size_;
-  int element_count_;
+  int element_count_, batch_;  // elements a batch
   // Of each vertex, the element vectors that add to it.
   std::vector<int> vertex_starts_, vertex_sources_;
-  // Of each batch, the blocks of the pattern that its elements add to, and of each of these the matrices of
-  // the batch that do.
-  std::vector<int> batch_starts_, targets_, source_starts_, sources_;
+  // Of each batch its sums, one for each block of the pattern that its elements add to; of each sum the
+  // matrices of the batch, and of each block the sums.
+  std::vector<int> batch_starts_, source_starts_, sources_, block_starts_, block_sums_;
 };
 
 }  // namespace lagomorph::sim

@@ -10,6 +10,7 @@ namespace lagomorph::sim {
 struct Invariants {
   double I_C, J;
   explicit Invariants(const Mat3& F) : I_C(F.squaredNorm()), J(determinant(F)) {}
+  Invariants(double of_C, double of_F) : I_C(of_C), J(of_F) {}
 };
 
 /// ∂ψ/∂I_C, ∂ψ/∂J and the second derivatives. [Pa]

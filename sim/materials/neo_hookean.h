@@ -18,8 +18,8 @@ struct NeoHookean {
 
   static NeoHookean from_settings(const MaterialSettings&, const std::string& where);
 
-  double psi(const Mat3& F) const {
-    const Invariants inv(F);
+  double psi(const Mat3& F) const { return psi(Invariants(F)); }
+  double psi(const Invariants& inv) const {
     if (!(inv.J > 0.0)) return std::numeric_limits<double>::infinity();
     const double cbrt = std::cbrt(inv.J);
     return C * (inv.I_C / (cbrt * cbrt) - 3.0) + D * (inv.J - 1.0) * (inv.J - 1.0);

@@ -17,8 +17,8 @@ struct NeoHookeanLog {
 
   static NeoHookeanLog from_settings(const MaterialSettings&, const std::string& where);
 
-  double psi(const Mat3& F) const {
-    const Invariants inv(F);
+  double psi(const Mat3& F) const { return psi(Invariants(F)); }
+  double psi(const Invariants& inv) const {
     if (!(inv.J > 0.0)) return std::numeric_limits<double>::infinity();
     const double log_J = std::log(inv.J);
     return 0.5 * mu * (inv.I_C - 3.0) + log_J * (0.5 * lambda * log_J - mu);

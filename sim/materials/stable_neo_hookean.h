@@ -16,8 +16,8 @@ struct StableNeoHookean {
 
   static StableNeoHookean from_settings(const MaterialSettings&, const std::string& where);
 
-  double psi(const Mat3& F) const {
-    const Invariants inv(F);
+  double psi(const Mat3& F) const { return psi(Invariants(F)); }
+  double psi(const Invariants& inv) const {
     const double dJ = inv.J - 1.0;
     return 0.5 * mu * (inv.I_C - 3.0) - mu * dJ + 0.5 * (lambda + mu) * dJ * dJ;
   }

@@ -21,8 +21,8 @@ struct StableNeoHookeanLog {
   /// l (J - a), with l a = l + 3m/4.
   double pressure(double J) const { return l * (J - 1.0) - 0.75 * m; }
 
-  double psi(const Mat3& F) const {
-    const Invariants inv(F);
+  double psi(const Mat3& F) const { return psi(Invariants(F)); }
+  double psi(const Invariants& inv) const {
     const double dI = inv.I_C - 3.0, dJ = inv.J - 1.0;
     // l/2 ((J - a)² - (1 - a)²) = (J - 1) (l (J - 1)/2 - 3m/4)
     return 0.5 * m * (dI - std::log1p(0.25 * dI)) + dJ * (0.5 * l * dJ - 0.75 * m);

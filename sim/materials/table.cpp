@@ -81,12 +81,12 @@ void append(const TetMesh& mesh, const std::vector<ElasticBody>& bodies,
     }
   }
   if (!linear.elements.empty()) {
-    terms.push_back(std::make_unique<Elasticity<Material, Tet4>>(mesh, linear.elements,
-                                                                 std::move(linear.materials), pattern));
+    terms.push_back(
+        std::make_unique<Elasticity<Material, Tet4>>(mesh, linear.elements, linear.materials, pattern));
   }
   if (!quadratic.elements.empty()) {
     terms.push_back(std::make_unique<Elasticity<Material, Tet10>>(mesh, quadratic.elements,
-                                                                  std::move(quadratic.materials), pattern));
+                                                                  quadratic.materials, pattern));
   }
 }
 

@@ -50,6 +50,10 @@ void analysis(benchmark::State& timing, const char* tets) {
   const Swing& s = swing(tets);
   sim::LinearSolver solver(1);
   for (auto _ : timing) solver.analyze(s.model.pattern(), s.model.pins());
+  timing.counters["vertices"] = static_cast<double>(s.model.pins().free_vertices().size());
+  timing.counters["blocks"] = s.model.pattern()->block_count();
+  timing.counters["nonzeros"] = solver.factor_nonzeros();
+  timing.counters["flops"] = solver.factor_flops();
 }
 
 void factorization(benchmark::State& timing, const char* tets) {

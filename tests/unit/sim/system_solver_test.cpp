@@ -26,7 +26,7 @@ struct Cube {
     settings.linear = linear;
     SystemSolver solver(settings);
     solver.analyze(pattern, pins);
-    solver.begin(false);
+    solver.begin(1.0);
     return solver;
   }
 };
@@ -66,7 +66,7 @@ TEST_P(SystemSolverBy, RemembersNothingOfTheMinimizationBefore) {
   SystemSolver fresh = cube.solver(GetParam()), used = cube.solver(GetParam());
   VecX x, y;
   ASSERT_EQ(used.solve(other, cube.b, 1e-5, 1e-5, x), FactorStatus::ok);
-  used.begin(false);
+  used.begin(1.0);
   ASSERT_EQ(used.solve(H, cube.b, 1e-5, 1e-5, x), FactorStatus::ok);
   ASSERT_EQ(fresh.solve(H, cube.b, 1e-5, 1e-5, y), FactorStatus::ok);
   EXPECT_EQ(x, y);
@@ -86,21 +86,25 @@ TEST(SystemSolver, KeepsTheFactorWhileItServes) {
   ASSERT_EQ(solver.solve(random_system(cube.pattern, 1e4), cube.b, 1e-12, 1e-12, x), FactorStatus::ok);
   EXPECT_EQ(solver.counts().factorizations, 2);
   // Where matrices may be singular, each has its own.
-  solver.begin(true);
+  solver.begin(0.0);
   for (int k = 0; k < 3; ++k)
     ASSERT_EQ(solver.solve(random_system(cube.pattern, 1.0), cube.b, 1e-6, 1e-6, x), FactorStatus::ok);
   EXPECT_EQ(solver.counts().factorizations, 5);
 }
 
 TEST(SystemSolver, ChoosesByTheWork) {
-  const auto counts = [](int cells, double shift) {
+  const auto counts = [](int cells, double shift_at_rest, double shift) {
     const Cube cube(cells);
     SystemSolver solver = cube.solver("auto");
+    if (solver.needs_trial(1.0))
+      solver.try_at_rest(1.0, laplacian_system(cube.pattern, shift_at_rest), cube.b);
+    EXPECT_FALSE(solver.needs_trial(1.0));
+    solver.begin(1.0);
     VecX x;
     EXPECT_EQ(solver.solve(laplacian_system(cube.pattern, shift), cube.b, 1e-3, 1e-9, x), FactorStatus::ok);
     return solver.counts();
   };
-  const SolveCounts small = counts(3, 1.0), easy = counts(14, 1.0), hard = counts(14, 1e-7);
+  const SolveCounts small = counts(3, 1.0, 1.0), easy = counts(14, 1.0, 1.0), hard = counts(14, 1.0, 1e-7);
   EXPECT_EQ(small.cg_iterations, 0);  // a small factor is soon made
   EXPECT_EQ(small.factorizations, 1);
   EXPECT_GT(easy.cg_iterations, 0);
