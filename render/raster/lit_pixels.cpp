@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "render/raster/coarse_parts.h"
+#include "render/raster/pixel_ray.h"
 #include "render/raster/sky_visibility.h"
 #include "render/raster/soft_shadow.h"
 
@@ -281,6 +282,7 @@ void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<cons
   lit.lights.assign(area(lit.at), whole);
   lit.diffuse.clear();
   lit.mirrored.clear();
+  const Vec3 normal = ground_is_below(frame) ? Vec3::UnitY() : Vec3(-Vec3::UnitY());
   for_bands(lit.at, [&](const PixelRectangle& band) {
     const auto receivers = [&](int x, int y, int step, Receivers& r) {
       return tiles.touch(x, band.y + y, step * block_width, step * block_height) &&
@@ -289,7 +291,7 @@ void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<cons
     const auto shared = [&](int x, int y, const CoarseParts<most_lights>& cells, int at_x, int at_y,
                             std::array<float, most_lights>& seen) {
       if (cells.is_open(at_x, at_y) || !tiles.touch(x, band.y + y, 1, 1)) return Found::nothing_there;
-      return cells.find(at_x, at_y, 0.0F, Vec3::UnitY(), 1.0F, seen) ? Found::yes : Found::no;
+      return cells.find(at_x, at_y, 0.0F, normal, 1.0F, seen) ? Found::yes : Found::no;
     };
     light_part<most_lights>({frame, maps, Sky::left_out, lit}, band, ground_step, receivers, shared);
   });
