@@ -17,8 +17,8 @@ public:
 
   /// One line.
   void note(const std::string& line);
-  /// So many frames are to come, each in so many passes over all of them. `stage` says of what, where there are
-  /// several one after another: "drawing".
+  /// So many frames are to come, each in so many passes over all of them. `stage` says of what, where there
+  /// are several one after another: "drawing".
   void begin(int frames, int passes = 1, const std::string& stage = "");
   /// In one of the passes.
   void frame_done();

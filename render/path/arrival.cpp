@@ -7,7 +7,8 @@
 #include "render/path/path_dimensions.h"
 #include "render/path/path_tracer.h"
 
-/// What the rays of a batch arrive at: triangles, ground, lights and sky, and the light that comes from there.
+/// What the rays of a batch arrive at: triangles, ground, lights and sky, and the light that comes from
+/// there.
 namespace lagomorph::render::path {
 
 /// Where the rays meet triangles, mesh by mesh.

@@ -44,7 +44,8 @@ vec3 ground_normal(vec3 v) { return vec3(0.0, v.y > 0.0 ? 1.0 : -1.0, 0.0); }
 // that does not fade: see still_parts.h. Highlights end where half floats do, so that a shadow leaves
 // nothing of them.
 //
-// With CELLS at the corners of cells of pixels, of ground that does not fade, before nothing and of one colour.
+// With CELLS at the corners of cells of pixels, of ground that does not fade, before nothing and of one
+// colour.
 const char* const still_fragment = R"(
 layout(location = 0) out vec4 picture;   // CELLS: what the ground sends; w 1 where it is met
 layout(location = 1) out vec4 diffuse;   // what the sky's light on the ground becomes; w: of a white ground
@@ -120,7 +121,8 @@ void main() {
 }
 )";
 
-// Of the picture without the meshes what has no cells: the background, and the texture's part of the ground's colour.
+// Of the picture without the meshes what has no cells: the background, and the texture's part of the ground's
+// colour.
 const char* const backdrop_fragment = R"(
 out vec4 backdrop;
 void main() {
