@@ -15,7 +15,6 @@ namespace {
 using Double8 = double __attribute__((vector_size(64), may_alias));
 using Rows4 = double __attribute__((vector_size(32), aligned(8), may_alias));
 using Choice8 = long long __attribute__((vector_size(64), may_alias));
-using Choice4 = long long __attribute__((vector_size(32)));
 
 constexpr std::size_t kMatrixSize = TetGather::matrix_size(4);
 /// Part of the numbers that J and cof F are differences of, below which these are taken in twice the
@@ -90,15 +89,15 @@ inline __attribute__((always_inline)) void transpose4(const double* from, double
                 r1 = *reinterpret_cast<const Rows4*>(from + half + 8),
                 r2 = *reinterpret_cast<const Rows4*>(from + half + 16),
                 r3 = *reinterpret_cast<const Rows4*>(from + half + 24);
-    const Rows4 a = __builtin_shuffle(r0, r1, Choice4{0, 4, 2, 6}),
-                b = __builtin_shuffle(r0, r1, Choice4{1, 5, 3, 7}),
-                c = __builtin_shuffle(r2, r3, Choice4{0, 4, 2, 6}),
-                d = __builtin_shuffle(r2, r3, Choice4{1, 5, 3, 7});
+    const Rows4 a = __builtin_shufflevector(r0, r1, 0, 4, 2, 6),
+                b = __builtin_shufflevector(r0, r1, 1, 5, 3, 7),
+                c = __builtin_shufflevector(r2, r3, 0, 4, 2, 6),
+                d = __builtin_shufflevector(r2, r3, 1, 5, 3, 7);
     double* out = to + half * stride;
-    *reinterpret_cast<Rows4*>(out) = __builtin_shuffle(a, c, Choice4{0, 1, 4, 5});
-    *reinterpret_cast<Rows4*>(out + stride) = __builtin_shuffle(b, d, Choice4{0, 1, 4, 5});
-    *reinterpret_cast<Rows4*>(out + 2 * stride) = __builtin_shuffle(a, c, Choice4{2, 3, 6, 7});
-    *reinterpret_cast<Rows4*>(out + 3 * stride) = __builtin_shuffle(b, d, Choice4{2, 3, 6, 7});
+    *reinterpret_cast<Rows4*>(out) = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+    *reinterpret_cast<Rows4*>(out + stride) = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+    *reinterpret_cast<Rows4*>(out + 2 * stride) = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+    *reinterpret_cast<Rows4*>(out + 3 * stride) = __builtin_shufflevector(b, d, 2, 3, 6, 7);
   }
 }
 

@@ -59,14 +59,15 @@ StillTile kind_of_tile(const FrameBlock& frame, const StillCells& cells, int x, 
   Vec2 low = Vec2::Constant(1e30F), high = -low;
   float farthest = 0.0F;
   const Vec2 middle(frame.ground_at.x(), frame.ground_at.z());
-  for (const int corner : {0, 1, 2, 3}) {
-    const auto px = static_cast<float>((x + corner % 2) * tile_size);
-    const auto py = static_cast<float>((y + corner / 2) * tile_size);
-    const std::optional<GroundPoint> ground = ground_at_pixel(frame, px, py);
-    if (!ground) return StillTile::each_pixel;  // by rounding
-    const Vec2 at(ground->point.x(), ground->point.z());
-    low = low.cwiseMin(at), high = high.cwiseMax(at);
-    farthest = std::max(farthest, (at - middle).norm());
+  for (const int row : {y, y + 1}) {
+    for (const int column : {x, x + 1}) {
+      const std::optional<GroundPoint> ground =
+          ground_at_pixel(frame, static_cast<float>(column * tile_size), static_cast<float>(row * tile_size));
+      if (!ground) return StillTile::each_pixel;  // by rounding
+      const Vec2 at(ground->point.x(), ground->point.z());
+      low = low.cwiseMin(at), high = high.cwiseMax(at);
+      farthest = std::max(farthest, (at - middle).norm());
+    }
   }
   const Vec2 nearest = middle.cwiseMax(low).cwiseMin(high);
   if ((nearest - middle).norm() > frame.ground.y()) return StillTile::background;
@@ -117,14 +118,15 @@ struct CellTile {
   const StillCells& cells;
   int x, y;  // of its lower left pixel
   bool fades;
-  const float* backdrop;  // of that pixel; nullptr: there is none
-  std::size_t width;      // of the picture
-  std::size_t count;      // pixels of a row that are in the picture
+  const float* behind;   // backdrop's colour at that pixel; nullptr: the background is one colour
+  const float* texture;  // likewise the texture's part; nullptr: there is none
+  std::size_t width;     // of the picture
+  std::size_t count;     // pixels of a row that are in the picture
 };
 
 /// The texture's part in a row, where there is any.
 LAGOMORPH_INLINE void texture_parts(const CellTile& t, std::size_t j, TileRow& parts) {
-  for (std::size_t k = 0; k < t.count; ++k) parts[k] = t.backdrop[4 * (j * t.width + k) + 3];
+  for (std::size_t k = 0; k < t.count; ++k) parts[k] = t.texture[4 * (j * t.width + k)];
 }
 
 /// A channel of row j, of ground that does not fade.
@@ -150,7 +152,7 @@ LAGOMORPH_INLINE void weights_of_row(const CellTile& t, std::size_t j, TileRow& 
     parts.fill(1.0F);
   }
   texture.fill(0.0F);
-  if (!t.cells.planes[1].empty()) texture_parts(t, j, texture);
+  if (t.texture != nullptr) texture_parts(t, j, texture);
 }
 
 /// One row of the picture, interleaved.
@@ -158,14 +160,13 @@ LAGOMORPH_RENDER_SIMD void fill_picture_row(const CellTile& t, std::size_t j,
                                             const std::array<float, 3>& background, float* picture) {
   alignas(64) TileRow parts, texture, row;
   weights_of_row(t, j, parts, texture);
-  const bool is_constant = t.frame.background[3] > 0.5F;
   for (std::size_t c = 0; c < picture_channels; ++c) {
     channel_row(t, c, j, texture, row);
     if (!t.fades) {
       for (std::size_t k = 0; k < t.count; ++k) picture[3 * k + c] = row[k];
     } else {
       for (std::size_t k = 0; k < t.count; ++k) {
-        const float behind = is_constant ? background[c] : t.backdrop[4 * (j * t.width + k) + c];
+        const float behind = t.behind == nullptr ? background[c] : t.behind[4 * (j * t.width + k) + c];
         picture[3 * k + c] = parts[k] * row[k] + (1.0F - parts[k]) * behind;
       }
     }
@@ -192,18 +193,21 @@ LAGOMORPH_RENDER_SIMD void fill_planes_row(const CellTile& t, std::size_t j, std
 
 CellTile cell_tile(const FrameBlock& frame, const StillCells& cells, StillTile kind, int x, int y,
                    const Backdrop& backdrop, const StillParts& still) {
-  CellTile t{frame, cells, x * tile_size, y * tile_size, kind == StillTile::fading, nullptr, 0, 0};
+  const float* at =
+      backdrop.empty() ? nullptr : backdrop.data() + 4 * place(x * tile_size, y * tile_size, still.width);
+  CellTile t{frame, cells, x * tile_size, y * tile_size, kind == StillTile::fading, nullptr, nullptr, 0, 0};
+  if (at != nullptr && frame.background[3] < 0.5F) t.behind = at;
+  if (at != nullptr && !cells.planes[1].empty()) t.texture = at + 3;
   t.width = static_cast<std::size_t>(still.width);
   t.count = static_cast<std::size_t>(std::min(tile_size, still.width - t.x));
-  if (!backdrop.empty()) t.backdrop = backdrop.data() + 4 * place(t.x, t.y, still.width);
   return t;
 }
 
 void fill_background(const CellTile& t, std::size_t j, float* picture) {
   for (std::size_t k = 0; k < t.count; ++k) {
     for (std::size_t c = 0; c < picture_channels; ++c) {
-      picture[3 * k + c] = t.frame.background[3] > 0.5F ? t.frame.background[static_cast<Eigen::Index>(c)]
-                                                        : t.backdrop[4 * (j * t.width + k) + c];
+      picture[3 * k + c] = t.behind == nullptr ? t.frame.background[static_cast<Eigen::Index>(c)]
+                                               : t.behind[4 * (j * t.width + k) + c];
     }
   }
 }
