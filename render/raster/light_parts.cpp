@@ -9,8 +9,7 @@
 namespace lagomorph::render::raster {
 namespace {
 
-constexpr float widest_whole = 0.6F;  // of the distance from the nearest mesh; what is not wider is not split
-constexpr float widest_part = 0.3F;   // likewise
+constexpr float widest_part = 0.15F;  // of the distance from the nearest mesh
 constexpr int most_parts = 6;         // along a side
 
 /// From the light's middle to the nearest triangle's box of those that the light shines on; infinite if none.
@@ -37,9 +36,8 @@ float nearest_mesh(const AreaLight& light, std::span<const Mesh> meshes) {
 LightSplit split_of(const AreaLight& light, std::span<const Mesh> meshes, const Ground& ground) {
   const float nearest = std::max(nearest_mesh(light, meshes), 1e-6F);
   const auto parts = [nearest](float size) {
-    if (size <= widest_whole * nearest) return 1;
-    return static_cast<int>(
-        std::min(std::ceil(size / (widest_part * nearest)), static_cast<float>(most_parts)));
+    const float count = std::ceil(size / (widest_part * nearest));
+    return static_cast<int>(std::clamp(count, 1.0F, static_cast<float>(most_parts)));
   };
   LightSplit split;
   split.across = parts(light.size.x());

@@ -167,7 +167,7 @@ struct alignas(64) Search {
 
 /// Half of it, as a tangent. What is nearer to the light than its width, as a floor that goes on beneath it,
 /// is found only before it: of the taps of a wider search few would be left for all that is farther away.
-constexpr float widest_search = 0.5F;
+constexpr float widest_search = 0.25F;
 
 // Over so many texels the dots of what is seen through even out.
 template <bool see_through>

@@ -27,12 +27,12 @@ LightSplit split_above(const Vec2& size, float distance) {
 }
 
 TEST(LightSplit, IsOfWhatIsLargeBesideItsDistance) {
-  EXPECT_EQ(split_above(Vec2(1.5F, 1.5F), 3.0F).count(), 1);
-  EXPECT_EQ(split_above(Vec2(0.1F, 0.1F), 0.2F).count(), 1);
-  const LightSplit metre = split_above(Vec2(1.0F, 1.0F), 0.9F);
+  EXPECT_EQ(split_above(Vec2(0.4F, 0.4F), 3.0F).count(), 1);
+  EXPECT_EQ(split_above(Vec2(0.02F, 0.02F), 0.2F).count(), 1);
+  const LightSplit metre = split_above(Vec2(1.0F, 1.0F), 1.8F);
   EXPECT_EQ(metre.across, 4);
   EXPECT_EQ(metre.up, 4);
-  const LightSplit strip = split_above(Vec2(0.1F, 1.0F), 0.9F);
+  const LightSplit strip = split_above(Vec2(0.1F, 1.0F), 1.8F);
   EXPECT_EQ(strip.across, 1);
   EXPECT_EQ(strip.up, 4);
   EXPECT_EQ(split_above(Vec2(50.0F, 50.0F), 0.1F).count(), 36);
@@ -41,7 +41,7 @@ TEST(LightSplit, IsOfWhatIsLargeBesideItsDistance) {
 TEST(LightSplit, MindsOnlyWhatTheLightShinesOn) {
   std::vector<Mesh> meshes = small_box();
   meshes.push_back(box(Vec3(-1.0F, 3.3F, -1.0F), Vec3(1.0F, 3.4F, 1.0F)));  // a ceiling behind the light
-  EXPECT_EQ(split_of(light_above(Vec2(1.5F, 1.5F), 3.0F), meshes, Ground()).count(), 1);
+  EXPECT_EQ(split_of(light_above(Vec2(0.4F, 0.4F), 3.0F), meshes, Ground()).count(), 1);
   EXPECT_EQ(split_of(light_above(Vec2(1.5F, 1.5F), 3.0F), {}, Ground()).count(), 1);
 }
 
