@@ -52,9 +52,12 @@ void apply_threads(Options& o, const std::string& value) {
 }
 
 void apply_color_frame(Options& o, const std::string& value) {
-  const FrameRange frame = parse_frames(value, "--color-frame ");
-  if (frame.first != frame.last) wrong_input(fmt::format("--color-frame {}: must be one frame", value));
-  o.color_frame = frame.first;
+  int n = -1;
+  const char* end = value.data() + value.size();
+  const auto [stop, error] = std::from_chars(value.data(), end, n);
+  if (error != std::errc() || stop != end || n < 0)
+    wrong_input(fmt::format("--color-frame {}: must be one frame, counted from 0", value));
+  o.color_frame = n;
 }
 
 void apply_states(Options& o, const std::string& value) {

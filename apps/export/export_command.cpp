@@ -132,7 +132,9 @@ ExitStatus export_command(const Options& options) {
   const RunInfo info = info_of(run);
   const SceneDesc scene = load_scene(run.scene(), {});
   if (options.color_frame && !shows_field(scene))
-    wrong_input("--color-frame: no body of the run shows a field");
+    wrong_input(
+        "--color-frame: no body of the run shows a field; lagomorph render --set body.0.look.field=von_mises "
+        "gives it one");
   const StatesOfRun states(run, info.identity, scene.time.frames);
   const FrameRange frames = options.frames ? wanted_frames(options.frames, scene.time.frames) : states.all();
   states.require(frames);

@@ -142,7 +142,6 @@ void Overlays::draw_face_orientations(render::Picture& picture, const View& view
   }
   if (!any) return;
   constexpr Color blue = {40, 90, 255}, red = {255, 40, 40};
-  constexpr double opacity = 0.55;
   constexpr int n = ItemBuffer::samples;
   for (int y = 0; y < picture.height; ++y) {
     for (int column = 0; column < picture.width; ++column) {
@@ -158,8 +157,17 @@ void Overlays::draw_face_orientations(render::Picture& picture, const View& view
           continue;
         (side == Side::outside ? outside : inside) += 1;
       }
-      if (outside > 0) blend(picture, column, y, blue, opacity * outside / (n * n));
-      if (inside > 0) blend(picture, column, y, red, opacity * inside / (n * n));
+      if (outside + inside == 0) continue;
+      // In place of its own colour, lit as that is.
+      const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                      static_cast<std::size_t>(column);
+      const std::uint8_t* own = picture.rgb.data() + 3 * at;
+      const double light = 0.35 + 0.65 * (own[0] + own[1] + own[2]) / (3.0 * 255.0);
+      const double part = static_cast<double>(outside) / (outside + inside);
+      Color tint;
+      for (std::size_t c = 0; c < 3; ++c)
+        tint[c] = static_cast<std::uint8_t>(std::lround(light * (part * blue[c] + (1.0 - part) * red[c])));
+      blend(picture, column, y, tint, static_cast<double>(outside + inside) / (n * n));
     }
   }
 }

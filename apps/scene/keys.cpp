@@ -146,9 +146,10 @@ void visit_surface(SurfaceDesc& s, KeyVisitor& v) {
   v.key({.name = "fill",
          .meaning = "false: nothing of the surface but its wireframe is drawn, and it has no shadow"},
         &s.fill);
-  v.key({.name = "face_orientation",
-         .meaning = "tints its outside blue and its inside red, over the picture; both are lit alike"},
-        &s.face_orientation);
+  v.key(
+      {.name = "face_orientation",
+       .meaning = "its outside is blue and its inside red, in place of colour and field; both are lit alike"},
+      &s.face_orientation);
 }
 
 void visit_body(BodyDesc& b, KeyVisitor& v) {
