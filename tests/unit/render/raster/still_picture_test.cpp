@@ -83,6 +83,7 @@ FrameBlock from_above() {
   frame.up = Vec4(0.0F, 0.0F, -0.5F, 0.0F);
   frame.viewport = Vec4(32.0F, 16.0F, 1.0F / 32.0F, 1.0F / 16.0F);
   frame.ground = Vec4(0.0F, 10.0F, 8.0F, 1.0F);
+  frame.ground_at = Vec4::Zero();
   return frame;
 }
 
