@@ -63,46 +63,35 @@ constexpr int kRows = 256;  // of a piece of work; sums are made piece by piece,
 constexpr double kSameResidual = 1.001;  // over the tolerance, that is taken for it
 
 using Double4 = double __attribute__((vector_size(32), aligned(8)));
-
-/// Rows [begin, end) of y = A p; returns their part of pᵀ y. Of each block's columns four numbers are read,
-/// the fourth of no use.
-LAGOMORPH_SIMD double multiply_rows(int begin, int end, const int* starts, const int* columns,
-                                    const double* values, const double* p, double* y) {
-  Double4 sum = {0.0, 0.0, 0.0, 0.0};
-  for (int i = begin; i < end; ++i) {
-    Double4 a = {0.0, 0.0, 0.0, 0.0};
-    Double4 b = a, c = a;
-    for (int k = starts[i]; k < starts[i + 1]; ++k) {
-      const double* block = values + 9 * static_cast<std::ptrdiff_t>(k);
-      const double* x = p + 3 * static_cast<std::ptrdiff_t>(columns[k]);
-      a += *reinterpret_cast<const Double4*>(block) * x[0];
-      b += *reinterpret_cast<const Double4*>(block + 3) * x[1];
-      c += *reinterpret_cast<const Double4*>(block + 6) * x[2];
-    }
-    a += b + c;
-    const std::ptrdiff_t at = 3 * static_cast<std::ptrdiff_t>(i);
-    for (int r = 0; r < 3; ++r) y[at + r] = a[r];
-    sum += a * Double4{p[at], p[at + 1], p[at + 2], 0.0};
-  }
-  return sum[0] + sum[1] + sum[2];
-}
-
 using Float4 = float __attribute__((vector_size(16), aligned(4), may_alias));
 
-/// The same with A and a copy of p in single precision.
-LAGOMORPH_SIMD double multiply_rounded_rows(int begin, int end, const int* starts, const int* columns,
-                                            const float* values, const float* rounded_p, const double* p,
-                                            double* y) {
-  Double4 sum = {0.0, 0.0, 0.0, 0.0};
+// What a matrix's numbers are, and four of them.
+struct Full {
+  using Number = double;
+  using Four = Double4;
+};
+struct Rounded {
+  using Number = float;
+  using Four = Float4;
+};
+
+/// Rows [begin, end) of y = A x, with x a copy of p in A's precision; returns their part of pᵀ y. Of each
+/// block's columns four numbers are read, the fourth of no use.
+template <class Precision>
+inline __attribute__((always_inline)) double multiply(int begin, int end, const int* starts,
+                                                      const int* columns,
+                                                      const typename Precision::Number* values,
+                                                      const typename Precision::Number* x, const double* p,
+                                                      double* y) {
+  Double4 sum = {};
   for (int i = begin; i < end; ++i) {
-    Float4 a = {0.0F, 0.0F, 0.0F, 0.0F};
-    Float4 b = a, c = a;
+    typename Precision::Four a = {}, b = {}, c = {};
     for (int k = starts[i]; k < starts[i + 1]; ++k) {
-      const float* block = values + 9 * static_cast<std::ptrdiff_t>(k);
-      const float* x = rounded_p + 3 * static_cast<std::ptrdiff_t>(columns[k]);
-      a += *reinterpret_cast<const Float4*>(block) * x[0];
-      b += *reinterpret_cast<const Float4*>(block + 3) * x[1];
-      c += *reinterpret_cast<const Float4*>(block + 6) * x[2];
+      const auto* block = values + 9 * static_cast<std::ptrdiff_t>(k);
+      const auto* of = x + 3 * static_cast<std::ptrdiff_t>(columns[k]);
+      a += *reinterpret_cast<const typename Precision::Four*>(block) * of[0];
+      b += *reinterpret_cast<const typename Precision::Four*>(block + 3) * of[1];
+      c += *reinterpret_cast<const typename Precision::Four*>(block + 6) * of[2];
     }
     a += b + c;
     const Double4 full = __builtin_convertvector(a, Double4);
@@ -111,6 +100,17 @@ LAGOMORPH_SIMD double multiply_rounded_rows(int begin, int end, const int* start
     sum += full * Double4{p[at], p[at + 1], p[at + 2], 0.0};
   }
   return sum[0] + sum[1] + sum[2];
+}
+
+LAGOMORPH_SIMD double multiply_rows(int begin, int end, const int* starts, const int* columns,
+                                    const double* values, const double* p, double* y) {
+  return multiply<Full>(begin, end, starts, columns, values, p, p, y);
+}
+
+LAGOMORPH_SIMD double multiply_rounded_rows(int begin, int end, const int* starts, const int* columns,
+                                            const float* values, const float* rounded_p, const double* p,
+                                            double* y) {
+  return multiply<Rounded>(begin, end, starts, columns, values, rounded_p, p, y);
 }
 
 /// x += alpha p, r -= alpha y, z = D⁻¹ r for vertices [begin, end).

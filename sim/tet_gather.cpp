@@ -16,20 +16,32 @@ constexpr std::size_t kBatchDoubles = 23040;  // of matrices: 256 linear tets, a
 
 using Block8 = double __attribute__((vector_size(64), aligned(8), may_alias));
 
-/// Sums [begin, end) of blocks of nine doubles.
+/// Of nine doubles.
+struct BlockSum {
+  Block8 eight = {};
+  double last = 0.0;
+};
+
+/// Of the blocks that sum t has.
+inline __attribute__((always_inline)) BlockSum sum_of_blocks(int t, const int* starts, const int* sources,
+                                                             const double* from) {
+  BlockSum sum;
+  for (int s = starts[t]; s < starts[t + 1]; ++s) {
+    const double* block = from + 9 * static_cast<std::ptrdiff_t>(sources[s]);
+    sum.eight += *reinterpret_cast<const Block8*>(block);
+    sum.last += block[8];
+  }
+  return sum;
+}
+
+/// Sums [begin, end).
 LAGOMORPH_SIMD void sum_blocks(int begin, int end, const int* starts, const int* sources, const double* from,
                                double* sums) {
   for (int t = begin; t < end; ++t) {
-    Block8 sum = {};
-    double last = 0.0;
-    for (int s = starts[t]; s < starts[t + 1]; ++s) {
-      const double* block = from + 9 * static_cast<std::ptrdiff_t>(sources[s]);
-      sum += *reinterpret_cast<const Block8*>(block);
-      last += block[8];
-    }
+    const BlockSum sum = sum_of_blocks(t, starts, sources, from);
     double* to = sums + 9 * static_cast<std::ptrdiff_t>(t);
-    *reinterpret_cast<Block8*>(to) = sum;
-    to[8] = last;
+    *reinterpret_cast<Block8*>(to) = sum.eight;
+    to[8] = sum.last;
   }
 }
 
@@ -37,16 +49,10 @@ LAGOMORPH_SIMD void sum_blocks(int begin, int end, const int* starts, const int*
 LAGOMORPH_SIMD void add_sums_of_blocks(int begin, int end, const int* starts, const int* sources,
                                        const double* from, double scale, double* blocks) {
   for (int t = begin; t < end; ++t) {
-    Block8 sum = {};
-    double last = 0.0;
-    for (int s = starts[t]; s < starts[t + 1]; ++s) {
-      const double* block = from + 9 * static_cast<std::ptrdiff_t>(sources[s]);
-      sum += *reinterpret_cast<const Block8*>(block);
-      last += block[8];
-    }
+    const BlockSum sum = sum_of_blocks(t, starts, sources, from);
     double* to = blocks + 9 * static_cast<std::ptrdiff_t>(t);
-    *reinterpret_cast<Block8*>(to) += scale * sum;
-    to[8] += scale * last;
+    *reinterpret_cast<Block8*>(to) += scale * sum.eight;
+    to[8] += scale * sum.last;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -41,42 +42,41 @@ void apply_backend(Options& o, const std::string& value) {
   o.backend = value;
 }
 
-void apply_threads(Options& o, const std::string& value) {
+/// 0 or more, with nothing else in the text.
+std::optional<int> whole_number(std::string_view text) {
   int n = 0;
-  const char* end = value.data() + value.size();
-  const auto [stop, error] = std::from_chars(value.data(), end, n);
-  if (error != std::errc() || stop != end || n < 1 || n > most_threads) {
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, n);
+  if (error != std::errc() || stop != end || n < 0) return std::nullopt;
+  return n;
+}
+
+void apply_threads(Options& o, const std::string& value) {
+  const std::optional<int> n = whole_number(value);
+  if (!n || *n < 1 || *n > most_threads) {
     wrong_input(fmt::format("--threads {}: must be a whole number in 1 .. {}", value, most_threads));
   }
-  o.threads = n;
+  o.threads = *n;
 }
 
 void apply_color_frame(Options& o, const std::string& value) {
-  int n = -1;
-  const char* end = value.data() + value.size();
-  const auto [stop, error] = std::from_chars(value.data(), end, n);
-  if (error != std::errc() || stop != end || n < 0)
-    wrong_input(fmt::format("--color-frame {}: must be one frame, counted from 0", value));
-  o.color_frame = n;
+  const std::optional<int> n = whole_number(value);
+  if (!n) wrong_input(fmt::format("--color-frame {}: must be one frame, counted from 0", value));
+  o.color_frame = *n;
 }
 
 void apply_states(Options& o, const std::string& value) {
-  int n = 0;
-  const char* end = value.data() + value.size();
-  const auto [stop, error] = std::from_chars(value.data(), end, n);
-  if (error != std::errc() || stop != end || n < 0) {
+  const std::optional<int> n = whole_number(value);
+  if (!n) {
     wrong_input(fmt::format("--states {}: must be a whole number, 0 or more", value));
   }
-  o.states_every = n;
+  o.states_every = *n;
 }
 
 void apply_every(Options& o, const std::string& value) {
-  int n = 0;
-  const char* end = value.data() + value.size();
-  const auto [stop, error] = std::from_chars(value.data(), end, n);
-  if (error != std::errc() || stop != end || n < 1)
-    wrong_input(fmt::format("--every {}: must be a whole number, 1 or more", value));
-  o.every = n;
+  const std::optional<int> n = whole_number(value);
+  if (!n || *n < 1) wrong_input(fmt::format("--every {}: must be a whole number, 1 or more", value));
+  o.every = *n;
 }
 
 /// X0,Y0,X1,Y1; whether it is in the picture the scene tells.
@@ -84,12 +84,10 @@ void apply_region(Options& o, const std::string& value) {
   std::vector<int> numbers;
   for (std::size_t begin = 0; begin <= value.size();) {
     const std::size_t comma = std::min(value.find(',', begin), value.size());
-    int n = -1;
-    const char* end = value.data() + comma;
-    const auto [stop, error] = std::from_chars(value.data() + begin, end, n);
-    if (error != std::errc() || stop != end || n < 0) numbers.clear();
-    if (error != std::errc() || stop != end || n < 0) break;
-    numbers.push_back(n);
+    const std::optional<int> n = whole_number(std::string_view(value).substr(begin, comma - begin));
+    if (!n) numbers.clear();
+    if (!n) break;
+    numbers.push_back(*n);
     begin = comma + 1;
   }
   if (numbers.size() != 4 || numbers[0] >= numbers[2] || numbers[1] >= numbers[3]) {
@@ -345,13 +343,9 @@ std::string non_empty(const std::string& value, const char* option) {
 
 FrameRange parse_frames(const std::string& text, const std::string& what) {
   const auto number = [&](std::string_view digits) {
-    int n = -1;
-    const char* end = digits.data() + digits.size();
-    const auto [stop, error] = std::from_chars(digits.data(), end, n);
-    if (error != std::errc() || stop != end || n < 0) {
-      wrong_input(fmt::format("{}{}: must be A..B or one number, counted from 0", what, text));
-    }
-    return n;
+    const std::optional<int> n = whole_number(digits);
+    if (!n) wrong_input(fmt::format("{}{}: must be A..B or one number, counted from 0", what, text));
+    return *n;
   };
   const std::string_view all = text;
   const std::size_t dots = all.find("..");

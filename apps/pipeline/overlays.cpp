@@ -87,7 +87,7 @@ View Overlays::view_of(const render::Camera& camera, const sim::VecX& q, bool se
   int first_item = 0;
   for (std::size_t i = 0; i < drawn_.size(); ++i) {
     const BodyLines& body = drawn_[i];
-    if (body.mesh.triangles.empty() || (is_see_through(i) && !see_through_hide)) continue;
+    if (body.mesh.triangles.empty() || !hides(i, see_through_hide)) continue;
     view.items().draw(body.mesh.triangles, positions_of(body, q), first_item);
     first_item += static_cast<int>(body.mesh.triangles.size());
   }
@@ -128,7 +128,7 @@ void Overlays::draw_face_orientations(render::Picture& picture, const View& view
   std::vector<Side> sides;  // of the items of view_of(), towards the eye
   bool any = false;
   for (std::size_t i = 0; i < drawn_.size(); ++i) {
-    if (drawn_[i].mesh.triangles.empty() || (is_see_through(i) && !see_through_hide)) continue;
+    if (drawn_[i].mesh.triangles.empty() || !hides(i, see_through_hide)) continue;
     const SurfaceDesc& surface = scene_.body[i].surface;
     const std::vector<render::Vec3> x = positions_of(drawn_[i], q);
     for (const auto& [a, b, c] : drawn_[i].mesh.triangles) {
@@ -189,7 +189,7 @@ void Overlays::draw_wireframes(render::Picture& picture, const View& view, const
     if (lines.mesh.edges.empty()) continue;
     const std::vector<render::Vec3> x = positions_of(lines, q);
     View with_own = view;  // a mesh hides its own lines, whether it is filled or not
-    if (see_through_hide || !is_see_through(i)) with_own.items().draw(lines.mesh.triangles, x, own_items(i));
+    if (hides(i, see_through_hide)) with_own.items().draw(lines.mesh.triangles, x, own_items(i));
     draw_wireframe(picture, with_own, lines.mesh, x, own_items(i), style_of(scene_.body[i].wireframe));
   }
 }
@@ -207,11 +207,10 @@ void Overlays::draw_labels(render::Picture& picture, const View& view, const sim
 void Overlays::draw_in_world(render::Picture& picture, const render::Camera& camera, const sim::State& state,
                              bool see_through_hide) const {
   const View view = view_of(camera, state.q, see_through_hide);
-  const auto hides = [&](std::size_t body) { return see_through_hide || !is_see_through(body); };
   draw_face_orientations(picture, view, state.q, see_through_hide);
   draw_ghosts(picture, view);
   draw_wireframes(picture, view, state.q, see_through_hide);
-  glyphs_.draw(picture, view, state, most_, hides);
+  glyphs_.draw(picture, view, state, most_, [&](std::size_t body) { return hides(body, see_through_hide); });
   draw_labels(picture, view, state.q);
 }
 

@@ -51,6 +51,9 @@ private:
   bool is_see_through(std::size_t body) const {
     return scene_.body[body].surface.fill && scene_.body[body].look.opacity < 1.0F;
   }
+  bool hides(std::size_t body, bool see_through_hide) const {
+    return see_through_hide || !is_see_through(body);
+  }
   /// Everything that a renderer draws and that hides what is behind it: see-through bodies as asked for.
   View view_of(const render::Camera&, const sim::VecX& q, bool see_through_hide) const;
   void draw_in_world(render::Picture&, const render::Camera&, const sim::State&, bool see_through_hide) const;

@@ -68,7 +68,7 @@ void Progress::begin(int frames, int passes, const std::string& stage) {
   const std::lock_guard lock(mutex_);
   frames_ = frames;
   passes_ = passes;
-  stage_ = stage;
+  stage_ = stage.empty() ? "" : stage + " ";
   steps_done_ = told_ = 0;
   begin_ = last_ = Clock::now();
   if (style_ == Style::bar && frames > 0) draw_bar(0.0);
@@ -98,9 +98,8 @@ void Progress::end() {
 }
 
 void Progress::draw_bar(double seconds) {
-  const std::string text =
-      fmt::format(" {}{}{:>{}}/{}  {}", stage_, stage_.empty() ? "" : " ", done(),
-                  std::to_string(frames_).size(), frames_, rate_text(done(), frames_, seconds));
+  const std::string text = fmt::format(" {}{:>{}}/{}  {}", stage_, done(), std::to_string(frames_).size(),
+                                       frames_, rate_text(done(), frames_, seconds));
   const int room = std::clamp(terminal_width() - static_cast<int>(text.size()) - 3, 0, 40);
   const int filled = frames_ > 0 ? room * done() / frames_ : 0;
   const std::string bar = room > 4 ? fmt::format("[{}{}]", std::string(static_cast<std::size_t>(filled), '#'),
@@ -117,8 +116,7 @@ void Progress::clear_bar() {
 }
 
 void Progress::print_line(double seconds) {
-  put(fmt::format("{}{}frame {} of {}, {}\n", stage_, stage_.empty() ? "" : " ", done(), frames_,
-                  rate_text(done(), frames_, seconds)));
+  put(fmt::format("{}frame {} of {}, {}\n", stage_, done(), frames_, rate_text(done(), frames_, seconds)));
   told_ = done();
 }
 

@@ -39,7 +39,7 @@ private:
   const Style style_;
   std::mutex mutex_;
   int frames_ = 0, passes_ = 1;
-  std::string stage_;
+  std::string stage_;   // and a space, or nothing
   int steps_done_ = 0;  // frames in passes
   int told_ = 0;        // done() when the last line was printed
   bool bar_is_there_ = false;

@@ -6,8 +6,6 @@
 #include <limits>
 #include <optional>
 
-#include "render/raster/pixel_ray.h"
-
 namespace lagomorph::render::raster {
 namespace {
 
@@ -47,6 +45,20 @@ bool may_be_hidden(const LightBlock& light, const CasterGrid& casters, int shado
 
 }  // namespace
 
+TileCorners tile_corners(const FrameBlock& frame, int x, int y) {
+  const auto left = static_cast<float>(x), lower = static_cast<float>(y);
+  constexpr auto side = static_cast<float>(tile_size);
+  return {{ground_at_pixel(frame, left, lower), ground_at_pixel(frame, left + side, lower),
+           ground_at_pixel(frame, left, lower + side), ground_at_pixel(frame, left + side, lower + side)}};
+}
+
+float distance_from_middle(const FrameBlock& frame, std::span<const Vec3> points) {
+  Box2 box;
+  for (const Vec3& p : points) box.add({p.x(), p.z()});
+  const Vec2 middle(frame.ground_at.x(), frame.ground_at.z());
+  return (middle.cwiseMax(box.low).cwiseMin(box.high) - middle).norm();
+}
+
 std::vector<TileRun> touched_tiles(const FrameBlock& frame, std::span<const CasterGrid> casters,
                                    int shadow_map, const PixelRectangle& drawn) {
   std::vector<TileRun> runs;
@@ -60,28 +72,19 @@ std::vector<TileRun> touched_tiles(const FrameBlock& frame, std::span<const Cast
     for (int x = drawn.x / tile_size * tile_size; x < end_x; x += tile_size) {
       const auto left = static_cast<float>(x), lower = static_cast<float>(y);
       const float right = left + static_cast<float>(tile_size), upper = lower + static_cast<float>(tile_size);
-      const std::array<std::optional<GroundPoint>, 4> corners = {
-          ground_at_pixel(frame, left, lower), ground_at_pixel(frame, right, lower),
-          ground_at_pixel(frame, left, upper), ground_at_pixel(frame, right, upper)};
-      const auto met = std::count_if(corners.begin(), corners.end(), [](const auto& c) { return !!c; });
+      const TileCorners corners = tile_corners(frame, x, y);
       std::uint32_t hidden = 0;
-      bool touched = met > 0;
-      if (met == 4) {
-        const std::array<Vec3, 4> points = {corners[0]->point, corners[1]->point, corners[2]->point,
-                                            corners[3]->point};
-        Box2 on_ground, on_map;
-        for (const Vec3& p : points) {
-          on_ground.add({p.x(), p.z()});
+      bool touched = corners.count() > 0;
+      if (const std::optional<std::array<Vec3, 4>> points = corners.all()) {
+        Box2 on_map;
+        for (const Vec3& p : *points)
           on_map.add(frame.ground_map.x() * Vec2(p.x(), p.z()) + frame.ground_map.tail<2>());
-        }
-        const Vec2 middle(frame.ground_at.x(), frame.ground_at.z());
-        const Vec2 nearest = middle.cwiseMax(on_ground.low).cwiseMin(on_ground.high);
-        touched = (nearest - middle).norm() <= 1.001F * frame.ground.y();
+        touched = distance_from_middle(frame, *points) <= 1.001F * frame.ground.y();
         for (std::size_t i = 0; touched && i < casters.size(); ++i)
-          hidden |= may_be_hidden(frame.lights[i], casters[i], shadow_map, points) ? 1U << i : 0U;
+          hidden |= may_be_hidden(frame.lights[i], casters[i], shadow_map, *points) ? 1U << i : 0U;
         touched = touched && (hidden != 0 ||
                               ((on_map.low.array() <= 1.0F).all() && (on_map.high.array() >= 0.0F).all()));
-      } else if (met > 0) {
+      } else if (touched) {
         hidden = all;  // at the horizon
       }
       if (!touched) {

@@ -17,6 +17,9 @@ namespace {
 constexpr Parts whole = {65535, 65535, 65535, 65535};
 constexpr int ground_step = 4, surface_step = 2;  // of their cells [pixels]
 
+int down(int x, int step) { return x / step * step; }
+int up(int x, int step) { return down(x + step - 1, step); }
+
 std::uint16_t fraction(float x) {
   return static_cast<std::uint16_t>(std::clamp(x * 65535.0F + 0.5F, 0.0F, 65535.0F));
 }
@@ -218,8 +221,7 @@ public:
       upper = std::max(upper, static_cast<int>(run.upper));
     }
     if (right <= left) return;
-    left =
-        left / (ground_step * block_width) * (ground_step * block_width);  // cells' blocks are the picture's
+    left = down(left, ground_step * block_width);  // cells' blocks are the picture's
     around_ = {left, lower, right - left, upper - lower};
     columns_ = around_.width / tile_size;
     rows_ = around_.height / tile_size;
@@ -259,16 +261,12 @@ private:
 }  // namespace
 
 PixelRectangle whole_blocks(const PixelRectangle& r) {
-  const auto down = [](int x, int step) { return x / step * step; };
-  const auto up = [](int x, int step) { return (x + step - 1) / step * step; };
   constexpr int width = surface_step * block_width, height = surface_step * block_height;
   const int x = down(r.x, width), y = down(r.y, height);
   return {x, y, up(r.x + r.width, width) - x, up(r.y + r.height, height) - y};
 }
 
 PixelRectangle with_neighbours(const PixelRectangle& r) {
-  const auto down = [](int x, int step) { return x / step * step; };
-  const auto up = [](int x, int step) { return (x + step - 1) / step * step; };
   // Bands, and the block beside them; to the sides the blocks around that of a pixel.
   constexpr int width = ground_step * block_width, above = 2 * ground_step * block_height;
   const int x = down(r.x, width) - width, y = down(r.y, band_height) - above;

@@ -56,34 +56,25 @@ StillTile kind_of_tile(const FrameBlock& frame, const StillCells& cells, int x, 
   }
   if (met == 0) return StillTile::background;
   if (met < corners_of_tile * corners_of_tile) return StillTile::each_pixel;
-  Vec2 low = Vec2::Constant(1e30F), high = -low;
-  float farthest = 0.0F;
-  const Vec2 middle(frame.ground_at.x(), frame.ground_at.z());
-  for (const int row : {y, y + 1}) {
-    for (const int column : {x, x + 1}) {
-      const std::optional<GroundPoint> ground =
-          ground_at_pixel(frame, static_cast<float>(column * tile_size), static_cast<float>(row * tile_size));
-      if (!ground) return StillTile::each_pixel;  // by rounding
-      const Vec2 at(ground->point.x(), ground->point.z());
-      low = low.cwiseMin(at), high = high.cwiseMax(at);
-      farthest = std::max(farthest, (at - middle).norm());
-    }
-  }
-  const Vec2 nearest = middle.cwiseMax(low).cwiseMin(high);
-  if ((nearest - middle).norm() > frame.ground.y()) return StillTile::background;
+  const std::optional<std::array<Vec3, 4>> corners = tile_corners(frame, x * tile_size, y * tile_size).all();
+  if (!corners) return StillTile::each_pixel;  // by rounding
+  if (distance_from_middle(frame, *corners) > frame.ground.y()) return StillTile::background;
   if (each_pixel) return StillTile::each_pixel;
   for (const std::vector<float>& planes : cells.planes) {
     if (!planes.empty() && !is_smooth(cells, planes, first)) return StillTile::each_pixel;
   }
-  return farthest > frame.ground.z() ? StillTile::fading : StillTile::solid;
+  const bool fades = std::any_of(corners->begin(), corners->end(), [&](const Vec3& p) {
+    return (p - frame.ground_at.head<3>()).norm() > frame.ground.z();
+  });
+  return fades ? StillTile::fading : StillTile::solid;
 }
 
-/// 1 less ground_fade() of the shaders, of a row of a tile whose lower left pixel is (x, y).
+/// Part of the ground that does not fade, of a row of a tile whose lower left pixel is (x, y).
 LAGOMORPH_INLINE void ground_parts(const FrameBlock& frame, float x, float y, TileRow& parts) {
   const float up = 2.0F * (y + 0.5F) * frame.viewport[3] - 1.0F;
   const float moves = frame.eye[3] > 0.5F ? 1.0F : 0.0F;  // of the rays: their origin, or their direction
   const float turns = 1.0F - moves;
-  const float start = frame.ground[2], width = frame.ground[1] - frame.ground[2];
+  const float start = frame.ground[2], radius = frame.ground[1];
   for (std::size_t k = 0; k < side; ++k) {
     const float right = 2.0F * (x + static_cast<float>(k) + 0.5F) * frame.viewport[2] - 1.0F;
     const float across_x = right * frame.right[0] + up * frame.up[0];
@@ -94,8 +85,7 @@ LAGOMORPH_INLINE void ground_parts(const FrameBlock& frame, float x, float y, Ti
     const float at_x = frame.eye[0] + moves * across_x + depth * (frame.forward[0] + turns * across_x);
     const float at_z = frame.eye[2] + moves * across_z + depth * (frame.forward[2] + turns * across_z);
     const float from_x = at_x - frame.ground_at[0], from_z = at_z - frame.ground_at[2];
-    const float t = std::clamp((std::sqrt(from_x * from_x + from_z * from_z) - start) / width, 0.0F, 1.0F);
-    parts[k] = 1.0F - t * t * (3.0F - 2.0F * t);
+    parts[k] = 1.0F - fade_at(std::sqrt(from_x * from_x + from_z * from_z), start, radius);
   }
 }
 

@@ -53,14 +53,6 @@ StillPicture::StillPicture(const LightFeatures& features, int lights)
           "still cells", {shaders::full_screen_vertex},
           {cell_definitions().c_str(), still_definitions(features, lights).c_str(), shaders::frame,
            shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point, shaders::still_fragment}),
-      tiles_program_("still tiles",
-                     {("#define TILE " + std::to_string(tile_size) + ".0\n").c_str(), shaders::tiles_vertex},
-                     {tile_definitions, still_definitions(features, lights).c_str(), shaders::frame,
-                      shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point,
-                      shaders::ground_color, shaders::still_fragment}),
-      backdrop_program_("backdrop", {shaders::full_screen_vertex},
-                        {features.definitions().c_str(), shaders::frame, shaders::sky, shaders::ground_point,
-                         shaders::ground_color, shaders::backdrop_fragment}),
       light_program_("ground's light", {shaders::full_screen_vertex},
                      {still_definitions(features, lights).c_str(), shaders::frame, shaders::brdf,
                       shaders::sky, shaders::shade, shaders::ground_point, shaders::ground_light_fragment}) {
@@ -189,10 +181,17 @@ void StillPicture::draw_backdrop(const FrameBlock& frame) {
     backdrop_target_.emplace(still_.width, still_.height);
     backdrop_.resize(4 * still_.pixels());
   }
+  if (!backdrop_program_) {
+    using Parts = Program::Parts;
+    backdrop_program_.emplace(
+        "backdrop", Parts{shaders::full_screen_vertex},
+        Parts{features_.definitions().c_str(), shaders::frame, shaders::sky, shaders::ground_point,
+              shaders::ground_color, shaders::backdrop_fragment});
+  }
   bind(backdrop_target_->target, still_.width, still_.height);
   glScissor(0, first, still_.width, last - first);
   glEnable(GL_SCISSOR_TEST);
-  backdrop_program_.use();
+  backdrop_program_->use();
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDisable(GL_SCISSOR_TEST);
   const std::size_t offset = 4 * static_cast<std::size_t>(first) * static_cast<std::size_t>(still_.width);
@@ -208,6 +207,15 @@ void StillPicture::draw_tiles() {
   if (numbers.empty()) return;
   constexpr int size = tiles_beside * tile_size;
   if (!tiles_target_) tiles_target_.emplace(size, size, still_.part_count(), GL_RGBA16F);
+  if (!tiles_program_) {
+    using Parts = Program::Parts;
+    tiles_program_.emplace(
+        "still tiles",
+        Parts{("#define TILE " + std::to_string(tile_size) + ".0\n").c_str(), shaders::tiles_vertex},
+        Parts{tile_definitions, still_definitions(features_, still_.lights).c_str(), shaders::frame,
+              shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point, shaders::ground_color,
+              shaders::still_fragment});
+  }
   for (std::size_t first = 0; first < numbers.size(); first += most_tiles) {
     const std::span<const int> some =
         std::span(numbers).subspan(first, std::min<std::size_t>(most_tiles, numbers.size() - first));
@@ -217,8 +225,8 @@ void StillPicture::draw_tiles() {
       at.push_back(number / cells_.tile_columns());
     }
     bind(tiles_target_->target, size, size);
-    tiles_program_.use();
-    glUniform2iv(tiles_program_.location("tiles"), static_cast<GLsizei>(some.size()), at.data());
+    tiles_program_->use();
+    glUniform2iv(tiles_program_->location("tiles"), static_cast<GLsizei>(some.size()), at.data());
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(some.size()));
     read_tiles(some);
   }

@@ -62,7 +62,8 @@ private:
   bool has_texture() const { return features_.ground_texture > 0; }
 
   LightFeatures features_;
-  Program cells_program_, tiles_program_, backdrop_program_, light_program_;
+  Program cells_program_, light_program_;
+  std::optional<Program> tiles_program_, backdrop_program_;  // compiled when they are needed
   VertexArray no_attributes_;
   std::optional<Target> cells_target_, tiles_target_;
   std::optional<BackdropTarget> backdrop_target_;
