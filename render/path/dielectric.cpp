@@ -25,16 +25,6 @@ float masking_of_arrival(const Vec3& wo, const Vec3& wi, float alpha, bool refle
   return (1.0F + o) / (o + i);
 }
 
-Vec3 reflected(const Vec3& wo, const Vec3& h) { return 2.0F * wo.dot(h) * h - wo; }
-
-/// Snell: through the microfacet h, above which wo is; `eta` as of fresnel(). Zero at total reflection.
-Vec3 refracted(const Vec3& wo, const Vec3& h, float eta) {
-  const float c = wo.dot(h);
-  const float sine2 = (1.0F - c * c) / (eta * eta);
-  if (sine2 >= 1.0F) return Vec3::Zero();
-  return (c / eta - std::sqrt(1.0F - sine2)) * h - wo / eta;
-}
-
 /// Probability of following the reflection of the part f. From outside lamps are seen in it that no other
 /// sample finds where the surface is smooth.
 float reflection_pick(float f, bool outside) { return outside ? std::max(f, 0.15F) : f; }
@@ -61,6 +51,15 @@ float directional_albedo(float cosine, float alpha, float eta) {
 }
 
 }  // namespace
+
+Vec3 reflected(const Vec3& wo, const Vec3& h) { return 2.0F * wo.dot(h) * h - wo; }
+
+Vec3 refracted(const Vec3& wo, const Vec3& h, float eta) {
+  const float c = wo.dot(h);
+  const float sine2 = (1.0F - c * c) / (eta * eta);
+  if (sine2 >= 1.0F) return Vec3::Zero();
+  return (c / eta - std::sqrt(1.0F - sine2)) * h - wo / eta;
+}
 
 float fresnel(float cosine, float eta) {
   const float sine2 = (1.0F - cosine * cosine) / (eta * eta);

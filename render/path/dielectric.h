@@ -11,6 +11,10 @@ namespace lagomorph::render::path {
 /// Reflectance of a smooth interface for unpolarized light [Fresnel]: `cosine` >= 0 of the arriving
 /// direction, `eta` the index behind the interface over that before it. 1 at total reflection.
 float fresnel(float cosine, float eta);
+/// Mirrored on the microfacet h.
+Vec3 reflected(const Vec3& wo, const Vec3& h);
+/// Snell: through the microfacet h, above which wo is; `eta` as of fresnel(). Zero at total reflection.
+Vec3 refracted(const Vec3& wo, const Vec3& h, float eta);
 
 /// A rough interface between air, z > 0, and a clear inside, z < 0 [Walter et al. 2007], GGX with visible
 /// normals. Directions are unit vectors that point away from the surface, on either side.

@@ -235,14 +235,15 @@ void LightMaps::put_parts(std::size_t i, const LightView& whole, const LightFram
 void LightMaps::draw(std::span<const MeshBuffers> meshes, std::span<const std::vector<Vec3>> positions,
                      const FrameBlock& block) {
   depths_.sky_size = sky_map_size;
-  depths_.see_through = features_.see_through;
+  depths_.see_through = std::any_of(meshes.begin(), meshes.end(),
+                                    [](const MeshBuffers& mesh) { return mesh.opacity_to_light() < 1.0F; });
   depths_.sky_is_map = features_.sky_map;
   std::vector<Caster> casters;
   casters.reserve(meshes.size());
   for (std::size_t k = 0; k < meshes.size(); ++k) {
     const MeshBuffers& mesh = meshes[k];
     casters.push_back(
-        {positions[k], mesh.triangles(), mesh.closed(), mesh.material().opacity, mesh.body_id()});
+        {positions[k], mesh.triangles(), mesh.closed(), mesh.opacity_to_light(), mesh.body_id()});
   }
   draw_light_depths(views_, casters, depths_.parts_maps);
   if (has_meshes_) {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "render/raster/clear_insides.h"
+#include "render/raster/optics_stand_in.h"
+
 namespace lagomorph::render::raster {
 namespace {
 
@@ -46,14 +49,18 @@ bool is_closed(std::span<const Triangle> triangles, std::span<const Vec3> positi
   return volume > 0.0 && edges == opposite && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
 }
 
-MeshBuffers::MeshBuffers(const Mesh& mesh)
+MeshBuffers::MeshBuffers(const Mesh& mesh, bool clear)
     : triangles_(mesh.triangles),
       topology_(mesh.triangles, mesh.positions.size()),
       material_(mesh.material),
       body_id_(mesh.body_id),
       smooth_(mesh.smooth),
       closed_(is_closed(mesh.triangles, mesh.positions)),
-      colored_(!mesh.colors.empty()) {
+      colored_(!mesh.colors.empty()),
+      clear_(clear),
+      opacity_to_light_(clear
+                            ? 1.0F - light_through(mesh.material, mean_chord(mesh.positions, mesh.triangles))
+                            : mesh.material.opacity) {
   glBindVertexArray(vertex_array_.id());
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles_.size() * sizeof(Triangle)),

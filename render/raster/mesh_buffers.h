@@ -17,7 +17,8 @@ bool is_closed(std::span<const Triangle>, std::span<const Vec3> positions);
 /// A mesh on the GL side: indices are uploaded once, positions and normals when they change.
 class MeshBuffers {
 public:
-  explicit MeshBuffers(const Mesh&);
+  /// `clear`: see ClearInsides.
+  explicit MeshBuffers(const Mesh&, bool clear = false);
 
   void upload(std::span<const Vec3> positions);
   /// Where it was at the frame before, attribute 3; new positions make it stand still.
@@ -33,6 +34,9 @@ public:
   bool closed() const { return closed_; }
   bool colored() const { return colored_; }
   bool moves() const { return moves_; }
+  bool clear() const { return clear_; }
+  /// Part of the light that it stops.
+  float opacity_to_light() const { return opacity_to_light_; }
   bool see_through() const { return material_.opacity < 1.0F; }
   int body_id() const { return body_id_; }
 
@@ -42,7 +46,8 @@ private:
   std::vector<Vec3> normals_;
   Material material_;
   int body_id_;
-  bool smooth_, closed_, colored_;
+  bool smooth_, closed_, colored_, clear_;
+  float opacity_to_light_;
   bool moves_ = false;
   VertexArray vertex_array_;
   Buffer indices_, position_buffer_, normal_buffer_, color_buffer_;

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "render/albedo.h"
+#include "render/raster/clear_insides.h"
 
 namespace lagomorph::render::raster {
 
@@ -20,9 +21,10 @@ float mean_chord(std::span<const Vec3> positions, std::span<const Triangle> tria
   return area > 0.0 ? static_cast<float>(4.0 * std::abs(volume) / area) : 0.0F;
 }
 
-Material optics_stand_in(const Material& m, float thickness) {
+Material optics_stand_in(const Material& m, float thickness, bool drawn_clear) {
   Material clear = m;
-  clear.absorption_color = m.absorption_color.pow(thickness / m.absorption_distance);
+  clear.absorption_color =
+      drawn_clear ? Color(Color::Zero()) : Color(m.absorption_color.pow(thickness / m.absorption_distance));
   Material drawn = m;
   drawn.base_color = albedo(clear);
   drawn.roughness += m.coat * (std::min(m.roughness, m.coat_roughness) - m.roughness);
@@ -37,8 +39,12 @@ std::vector<std::string> optics_remarks(const RenderScene& scene) {
     const auto add = [&](bool there, const char* drawn) {
       if (there) what += (what.empty() ? "" : "; ") + std::string(drawn);
     };
-    add(m.transmission > 0.0F,
-        "transmission is an opaque base of absorption_color through its mean thickness");
+    if (m.transmission > 0.0F && m.metallic < 1.0F) {
+      add(true, is_drawn_clear(scene, mesh)
+                    ? "its shadow is as light as it is clear, without colours and caustics"
+                    : "transmission is an opaque base of absorption_color through its mean thickness, beside "
+                      "colours or other bodies' opacity");
+    }
     add(m.subsurface > 0.0F, "subsurface is an opaque base of subsurface_color");
     add(m.coat > 0.0F, "coat sharpens the highlights instead of adding its own");
     add(m.sheen > 0.0F, "sheen is left out");

@@ -12,10 +12,11 @@ namespace lagomorph::render::raster {
 /// Mean length of the straight lines through a closed surface, 4 V / S (Cauchy's; of a convex body) [m].
 float mean_chord(std::span<const Vec3> positions, std::span<const Triangle>);
 
-/// A clear inside is a diffuse base of what absorption leaves of white over `thickness` [m], a cloudy one of
-/// its colour, under the same dielectric; of roughness and coat_roughness the sharper one counts as far as
-/// there is coat; sheen is left out. The same material where it has none of these.
-Material optics_stand_in(const Material&, float thickness);
+/// A clear inside is a diffuse base of what absorption leaves of white over `thickness` [m], or black where
+/// what is seen through it is drawn (ClearInsides); a cloudy one is a base of its colour, under the same
+/// dielectric; of roughness and coat_roughness the sharper one counts as far as there is coat; sheen is left
+/// out. The same material where it has none of these.
+Material optics_stand_in(const Material&, float thickness, bool drawn_clear);
 /// Which meshes are drawn so and how, a line each.
 std::vector<std::string> optics_remarks(const RenderScene&);
 

@@ -11,6 +11,7 @@
 #include "render/backends.h"
 #include "render/error.h"
 #include "render/ground_texture.h"
+#include "render/raster/clear_insides.h"
 #include "render/raster/data_pass.h"
 #include "render/raster/frame_block.h"
 #include "render/raster/gl_context.h"
@@ -96,6 +97,7 @@ private:
     std::optional<DataPass> data;         // likewise
     std::optional<SeenPrograms> colored;  // likewise; used where a mesh has colours of its vertices
     std::optional<PeelPrograms> peel;     // used where a mesh is not opaque
+    std::optional<ClearInsides> clear;    // used where a mesh has one
     bool peel_has_colors = false;
     bool has_colors = false;
 
@@ -109,10 +111,13 @@ private:
   void show_ground(bool shown);
   void draw_full_screen() const;
   void draw_ground(const Program&) const;
-  enum class Which { all, opaque, see_through };
+  /// Solid ones are those that are opaque and not clear.
+  enum class Which { all, opaque, solid, see_through };
   void draw_meshes(const Program&, Which which = Which::all) const;
   bool ground_hides(const Camera&) const;
-  void draw_seen(bool behind_ground) const;
+  void draw_seen(bool behind_ground, Which) const;
+  void draw_bodies(const Camera&, Which, const PixelRectangle& seen, std::span<float> color);
+  void draw_clear(const Camera&, const PixelRectangle& seen, std::span<float> color);
   void put_background(const PixelRectangle& drawn, std::span<float> color);
   struct LayerPass {
     const Program &surface, &layer;
@@ -147,8 +152,8 @@ private:
   bool has_ground_ = false;       // the scene; scene_ has it where it is drawn
 };
 
-SurfaceBlock surface_block(const Material& material, float thickness) {
-  const Material m = optics_stand_in(material, thickness);
+SurfaceBlock surface_block(const Material& material, float thickness, bool clear) {
+  const Material m = optics_stand_in(material, thickness, clear);
   const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
   return {vec4(m.base_color, 0.0F), Vec4(m.roughness, m.metallic, r * r, m.opacity)};
 }
@@ -163,12 +168,15 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
   body_ids_.clear();
   gl_->meshes.clear();
   for (const Mesh& mesh : scene.meshes) {
-    gl_->meshes.emplace_back(mesh);
+    gl_->meshes.emplace_back(mesh, is_drawn_clear(scene, mesh));
     positions_.push_back(mesh.positions);
     body_ids_.push_back(mesh.body_id);
   }
   gl_->has_colors = std::any_of(gl_->meshes.begin(), gl_->meshes.end(),
                                 [](const MeshBuffers& mesh) { return mesh.colored(); });
+  gl_->clear.reset();
+  if (std::any_of(gl_->meshes.begin(), gl_->meshes.end(), [](const MeshBuffers& m) { return m.clear(); }))
+    gl_->clear.emplace(scene, scene_.lights);
   make_programs();
   const int lights = static_cast<int>(scene_.lights.size());
   if (!gl_->still || !gl_->still->is_for(gl_->features, lights)) {
@@ -209,9 +217,11 @@ void RasterRenderer::make_programs() {
 
 /// The ground, the meshes, the lights.
 void RasterRenderer::upload_surfaces(const RenderScene& scene) {
-  std::vector<SurfaceBlock> surfaces = {surface_block(scene.ground.material, 1.0F)};
-  for (const Mesh& mesh : scene.meshes)
-    surfaces.push_back(surface_block(mesh.material, mean_chord(mesh.positions, mesh.triangles)));
+  std::vector<SurfaceBlock> surfaces = {surface_block(scene.ground.material, 1.0F, false)};
+  for (const Mesh& mesh : scene.meshes) {
+    surfaces.push_back(surface_block(mesh.material, mean_chord(mesh.positions, mesh.triangles),
+                                     is_drawn_clear(scene, mesh)));
+  }
   for (const AreaLight& light : scene_.lights)
     surfaces.push_back({vec4(Color(light.radiance * light.color), 1.0F), Vec4::Zero()});
   gl_->still->set_ground(surfaces.front());
@@ -247,6 +257,7 @@ void RasterRenderer::update_positions(int mesh, std::span<const Vec3> positions)
   context_->make_current();
   std::copy(positions.begin(), positions.end(), current.begin());
   gl_->meshes[static_cast<std::size_t>(mesh)].upload(current);
+  if (gl_->clear) gl_->clear->move(mesh, current);
   lights_are_stale_ = true;
 }
 
@@ -284,6 +295,7 @@ void RasterRenderer::show_ground(bool shown) {
   if (shown == scene_.ground.enabled) return;
   scene_.ground.enabled = shown;
   gl_->maps.show_ground(shown, block_);
+  if (gl_->clear) gl_->clear->show_ground(shown);
   gl_->still->forget();
   lights_are_stale_ = true;
 }
@@ -308,8 +320,9 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
   Image image(camera.width(), camera.height());
   const PixelRectangle picture = {0, 0, camera.width(), camera.height()};
   const PixelRectangle drawn =
-      frame.region ? common_rectangle(with_neighbours(rectangle_of(*frame.region, camera.height())), picture)
-                   : picture;
+      frame.region && !gl_->clear  // rays through clear insides end anywhere
+          ? common_rectangle(with_neighbours(rectangle_of(*frame.region, camera.height())), picture)
+          : picture;
   if (draws_alpha()) {  // of all pixels
     targets->bind_seen();
     targets->clear_seen();
@@ -318,17 +331,7 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
   const PixelRectangle seen = common_rectangle(whole_blocks(wanted), picture);
   std::vector<float>& color = image.add(color_channel, 3);
   put_background(drawn, color);
-  glScissor(seen.x, seen.y, seen.width, seen.height);
-  glEnable(GL_SCISSOR_TEST);
-  targets->bind_color();
-  constexpr std::array<float, 4> nothing = {};
-  glClearBufferfv(GL_COLOR, 0, nothing.data());
-  draw_seen(ground_hides(camera));
-  gl_->targets->bind_seen_textures();
-  draw_layers(seen, {gl_->programs->surface, gl_->seen().layer, GL_ONE_MINUS_SRC_ALPHA, false});
-  if (gl_->features.see_through) draw_see_through(seen);
-  glDisable(GL_SCISSOR_TEST);
-  targets->read_color_over(seen, color);
+  gl_->clear ? draw_clear(camera, seen, color) : draw_bodies(camera, Which::opaque, seen, color);
   if (wants(depth_channel)) {
     draw_depth();
     targets->read_values(image.add(depth_channel, 1));
@@ -344,6 +347,39 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
   seconds_reading_ += targets->seconds_reading() - read_before;
   check_gl("drawing a frame");
   return image;
+}
+
+/// Over the picture, which is the background.
+void RasterRenderer::draw_bodies(const Camera& camera, Which which, const PixelRectangle& seen,
+                                 std::span<float> color) {
+  Targets& targets = *gl_->targets;
+  glScissor(seen.x, seen.y, seen.width, seen.height);
+  glEnable(GL_SCISSOR_TEST);
+  targets.bind_color();
+  constexpr std::array<float, 4> nothing = {};
+  glClearBufferfv(GL_COLOR, 0, nothing.data());
+  draw_seen(ground_hides(camera), which);
+  targets.bind_seen_textures();
+  draw_layers(seen, {gl_->programs->surface, gl_->seen().layer, GL_ONE_MINUS_SRC_ALPHA, false});
+  if (gl_->features.see_through) draw_see_through(seen);
+  glDisable(GL_SCISSOR_TEST);
+  targets.read_color_over(seen, color);
+}
+
+/// The same where some are clear: what they mirror, and what is seen through them.
+void RasterRenderer::draw_clear(const Camera& camera, const PixelRectangle& seen, std::span<float> color) {
+  const std::vector<float> still(color.begin(), color.end());
+  std::vector<float> solid;
+  std::vector<SurfaceTexel> surfaces;
+  const PixelRectangle blocks = whole_blocks(seen);
+  if (!gl_->clear->all_are_clear()) {
+    solid = still;
+    draw_bodies(camera, Which::solid, seen, solid);
+    surfaces = surfaces_;
+  }
+  draw_bodies(camera, Which::opaque, seen, color);
+  gl_->clear->add(camera, {still, solid, {surfaces.empty() ? PixelRectangle{} : blocks, surfaces}}, seen,
+                  color);
 }
 
 void RasterRenderer::draw_full_screen() const {
@@ -364,6 +400,7 @@ void RasterRenderer::draw_meshes(const Program& program, Which which) const {
   for (const MeshBuffers& mesh : gl_->meshes) {
     const GLuint number = surface++;
     if (which != Which::all && mesh.see_through() != (which == Which::see_through)) continue;
+    if (which == Which::solid && mesh.clear()) continue;
     mesh.closed() && which != Which::see_through ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
     glUniform1ui(program.location("surface"), number);
     glUniform1i(program.location("is_smooth"), mesh.smooth() ? 1 : 0);
@@ -384,7 +421,7 @@ bool RasterRenderer::ground_hides(const Camera& camera) const {
 }
 
 /// What is seen of meshes and visible lights, unlit, in every sample.
-void RasterRenderer::draw_seen(bool behind_ground) const {
+void RasterRenderer::draw_seen(bool behind_ground, Which which) const {
   const Programs& programs = *gl_->programs;
   gl_->targets->bind_seen();
   glEnable(GL_DEPTH_TEST);
@@ -394,7 +431,7 @@ void RasterRenderer::draw_seen(bool behind_ground) const {
     draw_ground(programs.ground_cover);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
-  draw_meshes(gl_->seen().mesh, Which::opaque);
+  draw_meshes(gl_->seen().mesh, which);
   const Program& light = gl_->seen().light;
   light.use();
   glEnable(GL_CULL_FACE);
