@@ -9,22 +9,27 @@
 
 #include "render/ground_texture.h"
 #include "render/path/microfacet.h"
+#include "render/raster/stand_ins.h"
 
 namespace lagomorph::render::raster {
 namespace {
 
-constexpr int tile_side = 32;          // pixels
-constexpr int most_surfaces = 12;      // that a ray meets
+constexpr int tile_side = 32;      // pixels
+constexpr int most_surfaces = 16;  // that a ray meets
+constexpr float least_late_share = 0.1F;
 constexpr float least_share = 0.02F;   // of the light, for a ray to go on
 constexpr float smooth_alpha = 2e-3F;  // up to which surfaces are drawn as if they were smooth
+constexpr float rough_alpha = 1e-2F;   // from which on they take four times as many rays
 constexpr float least_sun = 3e-3F;     // solid angle of suns that four rays a pixel show without noise [sr]
+
+float alpha_of(const Material& m) { return m.roughness * m.roughness; }
 
 float clear_part(const Material& m) { return (1.0F - m.metallic) * m.transmission; }
 
 /// Of n, sample k of a pixel: a rotated grid of 4, or of 16.
 Vec2 sample_place(int k, int n) {
   static constexpr std::array<std::array<float, 2>, 4> rotated = {
-      {{0.375F, 0.125F}, {0.875F, 0.375F}, {0.125F, 0.625F}, {0.625F, 0.875F}}};
+      {{0.375F, 0.875F}, {0.875F, 0.625F}, {0.125F, 0.375F}, {0.625F, 0.125F}}};
   const auto& coarse = rotated[static_cast<std::size_t>(k % 4)];
   if (n <= 4) return {coarse[0], coarse[1]};
   const auto& fine = rotated[static_cast<std::size_t>(k / 4 % 4)];
@@ -85,10 +90,16 @@ std::array<Color, 6> ambient_light(const Sky& sky, const Ground& ground) {
 
 }  // namespace
 
-bool is_drawn_clear(const RenderScene& scene, const Mesh& mesh) {
-  return clear_part(mesh.material) > 0.0F && mesh.colors.empty() &&
-         std::none_of(scene.meshes.begin(), scene.meshes.end(),
-                      [](const Mesh& m) { return m.material.opacity < 1.0F; });
+ByRays drawn_by_rays(const RenderScene& scene, const Mesh& mesh) {
+  const bool clear = clear_part(mesh.material) > 0.0F && mesh.colors.empty() &&
+                     std::none_of(scene.meshes.begin(), scene.meshes.end(),
+                                  [](const Mesh& m) { return m.material.opacity < 1.0F; });
+  if (!clear) return ByRays::nothing;
+  const bool misses_none = std::all_of(scene.suns.begin(), scene.suns.end(),
+                                       [](const Sun& sun) { return solid_angle(sun) > least_sun; });
+  return alpha_of(mesh.material) <= rough_alpha && mesh.material.coat <= 0.0F && misses_none
+             ? ByRays::behind_and_mirrored
+             : ByRays::behind;
 }
 
 float light_through(const Material& m, float thickness) {
@@ -103,16 +114,18 @@ ClearInsides::ClearInsides(const RenderScene& scene, std::span<const AreaLight> 
       ambient_(ambient_light(scene.sky, scene.ground)),
       ground_(scene.ground),
       sky_(scene.sky),
+      has_background_(scene.background.has_value()),
       samples_(4) {
   for (const Mesh& mesh : scene.meshes) {
     const Material& m = mesh.material;
     std::optional<Inside>& inside = insides_.emplace_back();
     base_colors_.push_back(m.base_color);
-    if (!is_drawn_clear(scene, mesh)) continue;
-    const float alpha = m.roughness * m.roughness;
-    inside = {path::Absorption(m), std::max(m.ior, 1.001F), alpha <= smooth_alpha ? 0.0F : alpha,
-              clear_part(m)};
-    if (alpha > 5.0F * smooth_alpha) samples_ = 16;
+    const ByRays by_rays = drawn_by_rays(scene, mesh);
+    if (by_rays == ByRays::nothing) continue;
+    const float alpha = alpha_of(m);
+    inside = {path::Absorption(m), by_rays == ByRays::behind_and_mirrored, std::max(m.ior, 1.001F),
+              alpha <= smooth_alpha ? 0.0F : alpha, clear_part(m)};
+    if (alpha > rough_alpha) samples_ = 16;
   }
   for (const AreaLight& light : lights) {
     lights_.emplace_back(light);
@@ -150,14 +163,17 @@ Color ClearInsides::irradiance(const Vec3& point, const Vec3& normal) const {
   return sum;
 }
 
-/// As the picture without meshes shows it; outside of that, lit as if nothing were around.
-Color ClearInsides::radiance_of_ground(const Camera& camera, const Pictures& pictures,
-                                       const Vec3& point) const {
-  if (const std::optional<Vec2> at = place_in(camera, point))
-    return bilinear(pictures.still, camera.width(), camera.height(), *at);
+/// From where a ray meets it, as the picture without meshes shows it; outside of that, lit as if nothing were
+/// around.
+Color ClearInsides::radiance_of_ground(const Camera& camera, const Pictures& pictures, const Vec3& point,
+                                       const Vec3& direction) const {
   const float fade = ground_fade(ground_, point);
-  return (1.0F - fade) * std::numbers::inv_pi_v<float> * ground_color_at(ground_, point) *
-         irradiance(point, Vec3::UnitY());
+  const std::optional<Vec2> at = place_in(camera, point);
+  if (at && (fade <= 0.0F || !has_background_))
+    return bilinear(pictures.still, camera.width(), camera.height(), *at);
+  const Color ground =
+      std::numbers::inv_pi_v<float> * ground_color_at(ground_, point) * irradiance(point, Vec3::UnitY());
+  return (1.0F - fade) * ground + fade * sky_radiance(sky_, direction);
 }
 
 /// As the picture without clear meshes shows it where it is seen there; else as in the open.
@@ -263,11 +279,9 @@ private:
       const path::TriangleHit met = of_.geometry_.meet(ray, hit);
       if (of_.geometry_.meet_ground(ray) < met.t || light_is_before(ray, met.t)) continue;
       const path::SurfacePoint surface = of_.geometry_.arrive(ray, hit, met);
-      if (surface.inside) continue;
       const Inside& inside = *of_.insides_[hit.mesh];
       Path p = paths_[i];
-      p.share = Color::Constant(inside.share);
-      go_on(p, surface, hit.mesh, 0, true);
+      go_on(p, surface, hit.mesh, 0, !inside.mirrors);
     }
     paths_.swap(next_);
     next_.clear();
@@ -292,7 +306,7 @@ private:
     }
     if (on_ground) {
       const Vec3 point = of_.geometry_.ground_point(p.ray, ground);
-      add(p, of_.radiance_of_ground(camera_, pictures_, point));
+      add(p, of_.radiance_of_ground(camera_, pictures_, point, p.ray.direction));
     } else if (!on_mesh) {
       add(p, sky_radiance(of_.sky_, p.ray.direction));
     } else {
@@ -325,22 +339,30 @@ private:
     const Vec3 wo = -p.ray.direction;
     const Vec3 h = facet(p, surface, inside.alpha, surfaces);
     const float mirrored = path::fresnel(std::min(wo.dot(h), 1.0F), eta);
-    if (mirrored < 1.0F) {
-      Path on = p;
-      on.share *= 1.0F - mirrored;
+    Path on = p, back = p;
+    on.share *= 1.0F - mirrored;
+    back.share *= mirrored;
+    if (surfaces == 0) {
+      on.share *= inside.share;
+      if (through_alone) back.share = Color::Zero();
+    } else {
+      // Of a dim one the other takes the share.
+      const float least = surfaces < 3 ? least_share : least_late_share;
+      if (back.share.maxCoeff() < least || on.share.maxCoeff() < least) {
+        const bool back_is_more = mirrored > 0.5F;
+        (back_is_more ? back : on).share = p.share;
+        (back_is_more ? on : back).share = Color::Zero();
+      }
+    }
+    if (on.share.maxCoeff() > 0.0F) {
       on.ray = {surface.beyond, path::refracted(wo, h, eta).normalized(), 1.0F};
       on.inside = surface.inside ? path::MeshHit::none : mesh;
-      push(on);
+      next_.push_back(on);
     }
-    if (through_alone) return;
-    Path back = p;
-    back.share *= mirrored;
-    back.ray = {surface.origin, path::reflected(wo, h).normalized(), 1.0F};
-    push(back);
-  }
-
-  void push(const Path& p) {
-    if (p.share.maxCoeff() > least_share) next_.push_back(p);
+    if (back.share.maxCoeff() > 0.0F) {
+      back.ray = {surface.origin, path::reflected(wo, h).normalized(), 1.0F};
+      next_.push_back(back);
+    }
   }
 
   const ClearInsides& of_;

@@ -14,13 +14,15 @@
 #include "render/raster/view_range.h"
 #include "render/render_scene.h"
 
-/// Meshes with a clear inside: OpenGL draws what they mirror, and what is seen through them is found by rays,
-/// refracted and reflected at every surface, that end in the pictures that are there already.
+/// Meshes with a clear inside: what is seen through them, and what they mirror where they are smooth, is
+/// found by rays, refracted and reflected at every surface, that end in the pictures that are there already.
 namespace lagomorph::render::raster {
 
-/// Whether a mesh of the scene is drawn so: no mesh may be see-through, and it has no colours of its
-/// vertices.
-bool is_drawn_clear(const RenderScene&, const Mesh&);
+/// What of a mesh is drawn so. Nothing where a mesh of the scene is see-through or it has colours of its
+/// vertices. What it mirrors only where it is so smooth that few rays show that without noise, beside suns
+/// that rays do not miss.
+enum class ByRays { nothing, behind, behind_and_mirrored };
+ByRays drawn_by_rays(const RenderScene&, const Mesh&);
 /// Part of the light that comes through such a mesh, where its mean thickness is `thickness` [m].
 float light_through(const Material&, float thickness);
 
@@ -48,12 +50,13 @@ public:
 private:
   struct Inside {
     path::Absorption absorption;
+    bool mirrors;             // in the eyes of the camera
     float ior, alpha, share;  // share: of the light that comes through the surface, the part inside goes on
   };
   struct Path;
   class Tile;
 
-  Color radiance_of_ground(const Camera&, const Pictures&, const Vec3& point) const;
+  Color radiance_of_ground(const Camera&, const Pictures&, const Vec3& point, const Vec3& direction) const;
   Color radiance_of_mesh(const Camera&, const Pictures&, const path::MeshHit&, const path::TriangleHit&,
                          const path::SurfacePoint&) const;
   Color irradiance(const Vec3& point, const Vec3& normal) const;
@@ -66,7 +69,8 @@ private:
   std::array<Color, 6> ambient_;   // irradiance of sky and open ground on surfaces that face +x, -x, +y ...
   Ground ground_;
   Sky sky_;
-  int samples_;  // rays a pixel
+  bool has_background_;  // a colour, which only the camera sees
+  int samples_;          // rays a pixel
 };
 
 }  // namespace lagomorph::render::raster

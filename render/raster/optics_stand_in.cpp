@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 
 #include "render/albedo.h"
-#include "render/raster/clear_insides.h"
 
 namespace lagomorph::render::raster {
 
@@ -21,13 +20,15 @@ float mean_chord(std::span<const Vec3> positions, std::span<const Triangle> tria
   return area > 0.0 ? static_cast<float>(4.0 * std::abs(volume) / area) : 0.0F;
 }
 
-Material optics_stand_in(const Material& m, float thickness, bool drawn_clear) {
+Material optics_stand_in(const Material& m, float thickness, ByRays by_rays) {
   Material clear = m;
-  clear.absorption_color =
-      drawn_clear ? Color(Color::Zero()) : Color(m.absorption_color.pow(thickness / m.absorption_distance));
+  clear.absorption_color = by_rays != ByRays::nothing
+                               ? Color(Color::Zero())
+                               : Color(m.absorption_color.pow(thickness / m.absorption_distance));
   Material drawn = m;
   drawn.base_color = albedo(clear);
   drawn.roughness += m.coat * (std::min(m.roughness, m.coat_roughness) - m.roughness);
+  if (by_rays == ByRays::behind_and_mirrored) drawn.ior = 1.0F;
   return drawn;
 }
 
@@ -40,7 +41,7 @@ std::vector<std::string> optics_remarks(const RenderScene& scene) {
       if (there) what += (what.empty() ? "" : "; ") + std::string(drawn);
     };
     if (m.transmission > 0.0F && m.metallic < 1.0F) {
-      add(true, is_drawn_clear(scene, mesh)
+      add(true, drawn_by_rays(scene, mesh) != ByRays::nothing
                     ? "its shadow is as light as it is clear, without colours and caustics"
                     : "transmission is an opaque base of absorption_color through its mean thickness, beside "
                       "colours or other bodies' opacity");

@@ -152,8 +152,8 @@ private:
   bool has_ground_ = false;       // the scene; scene_ has it where it is drawn
 };
 
-SurfaceBlock surface_block(const Material& material, float thickness, bool clear) {
-  const Material m = optics_stand_in(material, thickness, clear);
+SurfaceBlock surface_block(const Material& material, float thickness, ByRays by_rays) {
+  const Material m = optics_stand_in(material, thickness, by_rays);
   const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
   return {vec4(m.base_color, 0.0F), Vec4(m.roughness, m.metallic, r * r, m.opacity)};
 }
@@ -168,7 +168,7 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
   body_ids_.clear();
   gl_->meshes.clear();
   for (const Mesh& mesh : scene.meshes) {
-    gl_->meshes.emplace_back(mesh, is_drawn_clear(scene, mesh));
+    gl_->meshes.emplace_back(mesh, drawn_by_rays(scene, mesh) != ByRays::nothing);
     positions_.push_back(mesh.positions);
     body_ids_.push_back(mesh.body_id);
   }
@@ -217,10 +217,10 @@ void RasterRenderer::make_programs() {
 
 /// The ground, the meshes, the lights.
 void RasterRenderer::upload_surfaces(const RenderScene& scene) {
-  std::vector<SurfaceBlock> surfaces = {surface_block(scene.ground.material, 1.0F, false)};
+  std::vector<SurfaceBlock> surfaces = {surface_block(scene.ground.material, 1.0F, ByRays::nothing)};
   for (const Mesh& mesh : scene.meshes) {
-    surfaces.push_back(surface_block(mesh.material, mean_chord(mesh.positions, mesh.triangles),
-                                     is_drawn_clear(scene, mesh)));
+    surfaces.push_back(
+        surface_block(mesh.material, mean_chord(mesh.positions, mesh.triangles), drawn_by_rays(scene, mesh)));
   }
   for (const AreaLight& light : scene_.lights)
     surfaces.push_back({vec4(Color(light.radiance * light.color), 1.0F), Vec4::Zero()});
