@@ -38,7 +38,7 @@ struct SkyDirectionBlock {
 
 /// A row of the shaders' table of surfaces (std430).
 struct SurfaceBlock {
-  Vec4 color;   // base colour, or radiance of a light; w 1 for a light
+  Vec4 color;   // base colour, or radiance of a light; w 1 for a light, -1 where rays show what is mirrored
   Vec4 finish;  // roughness, metallic, the dielectric's f0, opacity
 };
 

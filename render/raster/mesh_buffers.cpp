@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "render/raster/clear_insides.h"
 #include "render/raster/optics_stand_in.h"
+#include "render/raster/ray_scene.h"
 
 namespace lagomorph::render::raster {
 namespace {

@@ -17,7 +17,7 @@ bool is_closed(std::span<const Triangle>, std::span<const Vec3> positions);
 /// A mesh on the GL side: indices are uploaded once, positions and normals when they change.
 class MeshBuffers {
 public:
-  /// `clear`: see ClearInsides.
+  /// `clear`: see drawn_by_rays().
   explicit MeshBuffers(const Mesh&, bool clear = false);
 
   void upload(std::span<const Vec3> positions);

@@ -22,13 +22,11 @@ float mean_chord(std::span<const Vec3> positions, std::span<const Triangle> tria
 
 Material optics_stand_in(const Material& m, float thickness, ByRays by_rays) {
   Material clear = m;
-  clear.absorption_color = by_rays != ByRays::nothing
-                               ? Color(Color::Zero())
-                               : Color(m.absorption_color.pow(thickness / m.absorption_distance));
+  clear.absorption_color = by_rays.behind ? Color(Color::Zero())
+                                          : Color(m.absorption_color.pow(thickness / m.absorption_distance));
   Material drawn = m;
   drawn.base_color = albedo(clear);
   drawn.roughness += m.coat * (std::min(m.roughness, m.coat_roughness) - m.roughness);
-  if (by_rays == ByRays::behind_and_mirrored) drawn.ior = 1.0F;
   return drawn;
 }
 
@@ -41,7 +39,7 @@ std::vector<std::string> optics_remarks(const RenderScene& scene) {
       if (there) what += (what.empty() ? "" : "; ") + std::string(drawn);
     };
     if (m.transmission > 0.0F && m.metallic < 1.0F) {
-      add(true, drawn_by_rays(scene, mesh) != ByRays::nothing
+      add(true, drawn_by_rays(scene, mesh).behind
                     ? "its shadow is as light as it is clear, without colours and caustics"
                     : "transmission is an opaque base of absorption_color through its mean thickness, beside "
                       "colours or other bodies' opacity");
@@ -52,7 +50,8 @@ std::vector<std::string> optics_remarks(const RenderScene& scene) {
     if (!what.empty()) remarks.push_back("look of '" + mesh.name + "': " + what);
   }
   const Material& ground = scene.ground.material;
-  if (scene.ground.enabled && ground.roughness < 0.5F && (ground.metallic > 0.0F || ground.ior > 1.0F))
+  if (scene.ground.enabled && ground.roughness < 0.5F && !mirrors_by_rays(scene.ground) &&
+      (ground.metallic > 0.0F || ground.ior > 1.0F))
     remarks.emplace_back("the ground mirrors lights and sky, and of bodies only that they hide the sky");
   return remarks;
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/raster/clear_insides.h"
+#include "render/raster/ray_scene.h"
 #include "render/render_scene.h"
 
 /// What the rasterizer draws in place of the principled material's clear and cloudy insides, coat and sheen.
@@ -14,7 +14,7 @@ namespace lagomorph::render::raster {
 float mean_chord(std::span<const Vec3> positions, std::span<const Triangle>);
 
 /// A clear inside is a diffuse base of what absorption leaves of white over `thickness` [m], or black where
-/// what is seen through it is drawn by rays, and mirrors nothing where they see to that too; a cloudy one is
+/// what is seen through it is drawn by rays; a cloudy one is
 /// a base of its colour, under the same dielectric; of roughness and coat_roughness the sharper one counts as
 /// far as there is coat; sheen is left out. The same material where it has none of these.
 Material optics_stand_in(const Material&, float thickness, ByRays);

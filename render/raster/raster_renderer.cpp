@@ -11,7 +11,6 @@
 #include "render/backends.h"
 #include "render/error.h"
 #include "render/ground_texture.h"
-#include "render/raster/clear_insides.h"
 #include "render/raster/data_pass.h"
 #include "render/raster/frame_block.h"
 #include "render/raster/gl_context.h"
@@ -22,6 +21,8 @@
 #include "render/raster/mesh_buffers.h"
 #include "render/raster/optics_stand_in.h"
 #include "render/raster/programs.h"
+#include "render/raster/ray_pass.h"
+#include "render/raster/ray_scene.h"
 #include "render/raster/shaders/shaders.h"
 #include "render/raster/stand_ins.h"
 #include "render/raster/still_picture.h"
@@ -97,7 +98,7 @@ private:
     std::optional<DataPass> data;         // likewise
     std::optional<SeenPrograms> colored;  // likewise; used where a mesh has colours of its vertices
     std::optional<PeelPrograms> peel;     // used where a mesh is not opaque
-    std::optional<ClearInsides> clear;    // used where a mesh has one
+    std::optional<RayScene> rays;         // used where meshes are clear or the ground mirrors them
     bool peel_has_colors = false;
     bool has_colors = false;
 
@@ -116,8 +117,12 @@ private:
   void draw_meshes(const Program&, Which which = Which::all) const;
   bool ground_hides(const Camera&) const;
   void draw_seen(bool behind_ground, Which) const;
-  void draw_bodies(const Camera&, Which, const PixelRectangle& seen, std::span<float> color);
-  void draw_clear(const Camera&, const PixelRectangle& seen, std::span<float> color);
+  void draw_bodies(const Camera&, Which, const PixelRectangle& seen);
+  void draw_with_rays(const Camera&, const PixelRectangle& seen, std::span<float> color);
+  bool any_clear() const {
+    return std::any_of(gl_->meshes.begin(), gl_->meshes.end(),
+                       [](const MeshBuffers& m) { return m.clear(); });
+  }
   void put_background(const PixelRectangle& drawn, std::span<float> color);
   struct LayerPass {
     const Program &surface, &layer;
@@ -155,7 +160,8 @@ private:
 SurfaceBlock surface_block(const Material& material, float thickness, ByRays by_rays) {
   const Material m = optics_stand_in(material, thickness, by_rays);
   const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
-  return {vec4(m.base_color, 0.0F), Vec4(m.roughness, m.metallic, r * r, m.opacity)};
+  return {vec4(m.base_color, by_rays.mirrored ? -1.0F : 0.0F),
+          Vec4(m.roughness, m.metallic, r * r, m.opacity)};
 }
 
 void RasterRenderer::set_scene(const RenderScene& scene) {
@@ -168,15 +174,17 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
   body_ids_.clear();
   gl_->meshes.clear();
   for (const Mesh& mesh : scene.meshes) {
-    gl_->meshes.emplace_back(mesh, drawn_by_rays(scene, mesh) != ByRays::nothing);
+    gl_->meshes.emplace_back(mesh, drawn_by_rays(scene, mesh).behind);
     positions_.push_back(mesh.positions);
     body_ids_.push_back(mesh.body_id);
   }
   gl_->has_colors = std::any_of(gl_->meshes.begin(), gl_->meshes.end(),
                                 [](const MeshBuffers& mesh) { return mesh.colored(); });
-  gl_->clear.reset();
-  if (std::any_of(gl_->meshes.begin(), gl_->meshes.end(), [](const MeshBuffers& m) { return m.clear(); }))
-    gl_->clear.emplace(scene, scene_.lights);
+  gl_->rays.reset();
+  if (mirrors_by_rays(scene.ground) ||
+      std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                  [&](const Mesh& mesh) { return drawn_by_rays(scene, mesh).any(); }))
+    gl_->rays.emplace(scene, scene_.lights);
   make_programs();
   const int lights = static_cast<int>(scene_.lights.size());
   if (!gl_->still || !gl_->still->is_for(gl_->features, lights)) {
@@ -217,7 +225,7 @@ void RasterRenderer::make_programs() {
 
 /// The ground, the meshes, the lights.
 void RasterRenderer::upload_surfaces(const RenderScene& scene) {
-  std::vector<SurfaceBlock> surfaces = {surface_block(scene.ground.material, 1.0F, ByRays::nothing)};
+  std::vector<SurfaceBlock> surfaces = {surface_block(scene.ground.material, 1.0F, ByRays{})};
   for (const Mesh& mesh : scene.meshes) {
     surfaces.push_back(
         surface_block(mesh.material, mean_chord(mesh.positions, mesh.triangles), drawn_by_rays(scene, mesh)));
@@ -257,7 +265,7 @@ void RasterRenderer::update_positions(int mesh, std::span<const Vec3> positions)
   context_->make_current();
   std::copy(positions.begin(), positions.end(), current.begin());
   gl_->meshes[static_cast<std::size_t>(mesh)].upload(current);
-  if (gl_->clear) gl_->clear->move(mesh, current);
+  if (gl_->rays) gl_->rays->geometry().move(mesh, current);
   lights_are_stale_ = true;
 }
 
@@ -295,7 +303,7 @@ void RasterRenderer::show_ground(bool shown) {
   if (shown == scene_.ground.enabled) return;
   scene_.ground.enabled = shown;
   gl_->maps.show_ground(shown, block_);
-  if (gl_->clear) gl_->clear->show_ground(shown);
+  if (gl_->rays) gl_->rays->geometry().show_ground(shown);
   gl_->still->forget();
   lights_are_stale_ = true;
 }
@@ -320,7 +328,7 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
   Image image(camera.width(), camera.height());
   const PixelRectangle picture = {0, 0, camera.width(), camera.height()};
   const PixelRectangle drawn =
-      frame.region && !gl_->clear  // rays through clear insides end anywhere
+      frame.region && !gl_->rays  // rays end anywhere
           ? common_rectangle(with_neighbours(rectangle_of(*frame.region, camera.height())), picture)
           : picture;
   if (draws_alpha()) {  // of all pixels
@@ -331,7 +339,12 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
   const PixelRectangle seen = common_rectangle(whole_blocks(wanted), picture);
   std::vector<float>& color = image.add(color_channel, 3);
   put_background(drawn, color);
-  gl_->clear ? draw_clear(camera, seen, color) : draw_bodies(camera, Which::opaque, seen, color);
+  if (gl_->rays) {
+    draw_with_rays(camera, seen, color);
+  } else {
+    draw_bodies(camera, Which::opaque, seen);
+    targets->put_over(color);
+  }
   if (wants(depth_channel)) {
     draw_depth();
     targets->read_values(image.add(depth_channel, 1));
@@ -349,9 +362,8 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
   return image;
 }
 
-/// Over the picture, which is the background.
-void RasterRenderer::draw_bodies(const Camera& camera, Which which, const PixelRectangle& seen,
-                                 std::span<float> color) {
+/// Into what is read to be put over the picture.
+void RasterRenderer::draw_bodies(const Camera& camera, Which which, const PixelRectangle& seen) {
   Targets& targets = *gl_->targets;
   glScissor(seen.x, seen.y, seen.width, seen.height);
   glEnable(GL_SCISSOR_TEST);
@@ -363,23 +375,37 @@ void RasterRenderer::draw_bodies(const Camera& camera, Which which, const PixelR
   draw_layers(seen, {gl_->programs->surface, gl_->seen().layer, GL_ONE_MINUS_SRC_ALPHA, false});
   if (gl_->features.see_through) draw_see_through(seen);
   glDisable(GL_SCISSOR_TEST);
-  targets.read_color_over(seen, color);
+  targets.read_color(seen);
 }
 
-/// The same where some are clear: what they mirror, and what is seen through them.
-void RasterRenderer::draw_clear(const Camera& camera, const PixelRectangle& seen, std::span<float> color) {
-  const std::vector<float> still(color.begin(), color.end());
-  std::vector<float> solid;
+/// Bodies over the picture, which is the background, what the ground mirrors of them and what is seen through
+/// them.
+void RasterRenderer::draw_with_rays(const Camera& camera, const PixelRectangle& seen,
+                                    std::span<float> color) {
+  gl_->rays->geometry().commit();
+  std::vector<float> still(color.begin(), color.end()), solid;
+  DrawnPictures pictures{still, still, {}};
   std::vector<SurfaceTexel> surfaces;
-  const PixelRectangle blocks = whole_blocks(seen);
-  if (!gl_->clear->all_are_clear()) {
+  const bool all_are_clear = std::all_of(gl_->meshes.begin(), gl_->meshes.end(),
+                                         [](const MeshBuffers& mesh) { return mesh.clear(); });
+  if (!all_are_clear) {
+    draw_bodies(camera, Which::solid, seen);
     solid = still;
-    draw_bodies(camera, Which::solid, seen, solid);
+    gl_->targets->put_over(solid);
     surfaces = surfaces_;
+    pictures.solid = solid;
+    pictures.surfaces = {whole_blocks(seen), surfaces};
   }
-  draw_bodies(camera, Which::opaque, seen, color);
-  gl_->clear->add(camera, {still, solid, {surfaces.empty() ? PixelRectangle{} : blocks, surfaces}}, seen,
-                  color);
+  if (mirrors_by_rays(scene_.ground)) {
+    add_mirrored_by_ground(*gl_->rays, camera, pictures, mirrored_rectangle(camera, positions_, scene_),
+                           color);
+  }
+  if (any_clear()) {
+    std::copy(color.begin(), color.end(), still.begin());
+    draw_bodies(camera, Which::opaque, seen);
+  }
+  gl_->targets->put_over(color);
+  add_by_rays(*gl_->rays, camera, pictures, seen, color);
 }
 
 void RasterRenderer::draw_full_screen() const {
@@ -449,7 +475,8 @@ void RasterRenderer::put_background(const PixelRectangle& drawn, std::span<float
   const std::vector<TileRun> tiles = touched_tiles(block_, gl_->maps.casters(), gl_->maps.least_map(), drawn);
   const StillParts& still = gl_->still->draw(block_, tiles);
   light_ground(block_, gl_->maps.depths(), tiles, lit_);
-  copy_less_taken(block_, still, gl_->maps.ground_seen(), tiles, lit_, drawn, color);
+  copy_less_taken(block_, still, gl_->maps.ground_seen(), tiles, lit_, drawn, mirrors_by_rays(scene_.ground),
+                  color);
 }
 
 /// The bound samples that are seen, lit once a pixel and surface, into the picture or that of the peeled

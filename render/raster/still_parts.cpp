@@ -52,6 +52,7 @@ struct TakenRow {
   int lights;
   const Parts* lit;                  // nullptr: all lights are seen
   std::array<const float*, 3> seen;  // of the sky
+  float mirrored;                    // 0: nothing of what the ground mirrors is taken
   float* color;
 };
 
@@ -87,7 +88,8 @@ LAGOMORPH_RENDER_SIMD void take(const TakenRow& r, const Color& open_sky, const 
     for (std::size_t x = 0; x < count; ++x) {
       const float sent = from_half(diffuse[x]), part = seen[x];
       const float light = ambient(part, sent, from_half(white[x]));
-      taken[x] = sent * (all - light) + (1.0F - part) * (from_half(mirrored[x]) - light * from_half(mesh[x]));
+      taken[x] = sent * (all - light) +
+                 r.mirrored * (1.0F - part) * (from_half(mirrored[x]) - light * from_half(mesh[x]));
     }
     if (r.lit != nullptr) {
       for (std::size_t i = 0; i < static_cast<std::size_t>(r.lights); ++i) {
@@ -143,7 +145,8 @@ struct SeenCells {
 };
 
 void take_run(const FrameBlock& frame, const StillParts& still, const GroundSeen& map, const TileRun& run,
-              const LitPixels& lit, const PixelRectangle& drawn, std::span<float> color) {
+              const LitPixels& lit, const PixelRectangle& drawn, bool mirrored_by_rays,
+              std::span<float> color) {
   const PixelRectangle at = common_rectangle({static_cast<int>(run.left), static_cast<int>(run.lower),
                                               static_cast<int>(run.right - run.left), tile_size},
                                              drawn);
@@ -159,6 +162,7 @@ void take_run(const FrameBlock& frame, const StillParts& still, const GroundSeen
       row.planes = still.planes.get() + pixel;
       row.plane = still.pixels();
       row.lights = still.lights;
+      row.mirrored = mirrored_by_rays ? 0.0F : 1.0F;
       if (run.lights_hidden != 0) {
         row.lit = lit.lights.data() +
                   static_cast<std::size_t>(y - lit.at.y) * static_cast<std::size_t>(lit.at.width) +
@@ -196,7 +200,7 @@ GroundSeen ground_seen(const LitPixels& lit) {
 
 void copy_less_taken(const FrameBlock& frame, const StillParts& still, const GroundSeen& map,
                      std::span<const TileRun> runs, const LitPixels& lit, const PixelRectangle& drawn,
-                     std::span<float> color) {
+                     bool mirrored_by_rays, std::span<float> color) {
   const int first = drawn.y / tile_size, last = (drawn.y + drawn.height + tile_size - 1) / tile_size;
   const auto width = static_cast<std::size_t>(still.width);
   tbb::parallel_for(first, last, [&](int k) {
@@ -212,7 +216,7 @@ void copy_less_taken(const FrameBlock& frame, const StillParts& still, const Gro
     const auto lower = [](const TileRun& run, float y) { return run.lower < y; };
     for (auto run = std::lower_bound(runs.begin(), runs.end(), static_cast<float>(k * tile_size), lower);
          run != runs.end() && run->lower < static_cast<float>((k + 1) * tile_size); ++run)
-      take_run(frame, still, map, *run, lit, drawn, color);
+      take_run(frame, still, map, *run, lit, drawn, mirrored_by_rays, color);
   });
 }
 

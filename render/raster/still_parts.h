@@ -41,8 +41,10 @@ struct GroundSeen {
 GroundSeen ground_seen(const LitPixels&);
 
 /// The drawn rectangle of the still picture into `color`, interleaved, rows from the top, in these tiles less
-/// what the meshes take: their shadows (light_ground()) and the sky that they hide.
+/// what the meshes take: their shadows (light_ground()) and the sky that they hide; of what the ground
+/// mirrors nothing where rays see to that.
 void copy_less_taken(const FrameBlock&, const StillParts&, const GroundSeen&, std::span<const TileRun>,
-                     const LitPixels&, const PixelRectangle& drawn, std::span<float> color);
+                     const LitPixels&, const PixelRectangle& drawn, bool mirrored_by_rays,
+                     std::span<float> color);
 
 }  // namespace lagomorph::render::raster

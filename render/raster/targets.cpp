@@ -171,12 +171,19 @@ void Targets::bind_depth() {
   has_depth_channel_ = true;
 }
 
-void Targets::read_color_over(const PixelRectangle& r, std::span<float> color) {
+void Targets::read_color(const PixelRectangle& r) {
+  color_at_ = r;
   if (r.width <= 0 || r.height <= 0) return;
-  const auto across = static_cast<std::size_t>(r.width), width = static_cast<std::size_t>(width_);
+  const auto across = static_cast<std::size_t>(r.width);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, color_target_.id());
   pixels_.resize(4 * across * static_cast<std::size_t>(r.height));
   read(r, GL_RGBA, GL_FLOAT, pixels_.data());
+}
+
+void Targets::put_over(std::span<float> color) const {
+  const PixelRectangle& r = color_at_;
+  if (r.width <= 0 || r.height <= 0) return;
+  const auto across = static_cast<std::size_t>(r.width), width = static_cast<std::size_t>(width_);
   tbb::parallel_for(tbb::blocked_range<int>(0, r.height, 32), [&](const auto& rows) {
     for (int row = rows.begin(); row != rows.end(); ++row) {
       const float* in = pixels_.data() + 4 * across * static_cast<std::size_t>(row);

@@ -54,8 +54,10 @@ public:
 
   /// What the functions that read have taken so far, without what was still to be drawn before them [s].
   double seconds_reading() const { return seconds_reading_; }
-  /// A rectangle of that picture over a linear colour, interleaved, rows from the top.
-  void read_color_over(const PixelRectangle&, std::span<float> color);
+  /// Reads a rectangle of that picture.
+  void read_color(const PixelRectangle&);
+  /// What was read over a linear colour, interleaved, rows from the top.
+  void put_over(std::span<float> color) const;
   /// The channel of one value a pixel, likewise.
   void read_values(std::vector<float>&);
 
@@ -86,7 +88,8 @@ private:
   std::optional<Peels> peels_;
   bool has_depth_channel_ = false;
   double seconds_reading_ = 0.0;
-  std::vector<float> pixels_;
+  std::vector<float> pixels_;  // that were read
+  PixelRectangle color_at_;    // of them, where they are colours
 };
 
 }  // namespace lagomorph::render::raster

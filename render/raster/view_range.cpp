@@ -74,6 +74,23 @@ PixelRectangle seen_rectangle(const Camera& camera, std::span<const std::vector<
           static_cast<int>(high.x() - low.x()), static_cast<int>(high.y() - low.y())};
 }
 
+PixelRectangle mirrored_rectangle(const Camera& camera, std::span<const std::vector<Vec3>> positions,
+                                  const RenderScene& scene) {
+  RenderScene ground_alone;
+  ground_alone.ground = scene.ground;
+  std::vector<std::vector<Vec3>> below(positions.begin(), positions.end());
+  for (std::vector<Vec3>& mesh : below) {
+    for (Vec3& p : mesh) p.y() = 2.0F * scene.ground.height - p.y();
+  }
+  PixelRectangle r = seen_rectangle(camera, below, ground_alone);
+  if (r.width <= 0) return r;
+  // A lobe's width, from any distance.
+  const float roughness = scene.ground.material.roughness;
+  const int more = static_cast<int>(2.0F * roughness * roughness * static_cast<float>(r.width + r.height));
+  r = {r.x - more, r.y - more, r.width + 2 * more, r.height + 2 * more};
+  return common_rectangle(r, {0, 0, camera.width(), camera.height()});
+}
+
 PixelRectangle rectangle_of(const PixelRegion& r, int height) {
   return {r.x0, height - r.y1, r.width(), r.height()};
 }

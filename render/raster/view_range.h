@@ -29,6 +29,10 @@ struct PixelRectangle {
 PixelRectangle seen_rectangle(const Camera&, std::span<const std::vector<Vec3>> positions,
                               const RenderScene&);
 
+/// Where the ground may mirror the meshes.
+PixelRectangle mirrored_rectangle(const Camera&, std::span<const std::vector<Vec3>> positions,
+                                  const RenderScene&);
+
 /// A region of a picture of this height.
 PixelRectangle rectangle_of(const PixelRegion&, int height);
 /// Empty (of no width and height) where they do not meet.

@@ -10,7 +10,7 @@ namespace optics_stand_in_test {
 
 TEST(OpticsStandIn, APlainMaterialIsItself) {
   const Material m{Color(0.1F, 0.3F, 0.34F), 0.4F, 0.2F, 1.4F};
-  const Material drawn = optics_stand_in(m, 1.0F, ByRays::nothing);
+  const Material drawn = optics_stand_in(m, 1.0F, ByRays{});
   EXPECT_EQ(drawn.base_color.matrix(), m.base_color.matrix());
   EXPECT_EQ(drawn.roughness, m.roughness);
   EXPECT_EQ(drawn.metallic, m.metallic);
@@ -24,14 +24,13 @@ TEST(OpticsStandIn, InsidesShowTheirColours) {
   m.absorption_color = Color(0.9F, 0.1F, 0.2F);
   m.subsurface_color = Color(0.2F, 0.7F, 0.4F);
   m.transmission = 1.0F;
-  EXPECT_LT((optics_stand_in(m, 1.0F, ByRays::nothing).base_color - m.absorption_color).abs().maxCoeff(),
-            1e-6F);
+  EXPECT_LT((optics_stand_in(m, 1.0F, ByRays{}).base_color - m.absorption_color).abs().maxCoeff(), 1e-6F);
   m.transmission = 0.0F;
   m.subsurface = 0.5F;
   const Color half = 0.5F * (m.base_color + m.subsurface_color);
-  EXPECT_LT((optics_stand_in(m, 1.0F, ByRays::nothing).base_color - half).abs().maxCoeff(), 1e-6F);
+  EXPECT_LT((optics_stand_in(m, 1.0F, ByRays{}).base_color - half).abs().maxCoeff(), 1e-6F);
   m.metallic = 1.0F;
-  EXPECT_EQ(optics_stand_in(m, 1.0F, ByRays::nothing).base_color.matrix(), m.base_color.matrix());
+  EXPECT_EQ(optics_stand_in(m, 1.0F, ByRays{}).base_color.matrix(), m.base_color.matrix());
 }
 
 TEST(OpticsStandIn, AThickerInsideLetsLessThrough) {
@@ -39,7 +38,7 @@ TEST(OpticsStandIn, AThickerInsideLetsLessThrough) {
   m.transmission = 1.0F;
   m.absorption_color = Color(0.9F, 0.5F, 0.2F);
   m.absorption_distance = 0.1F;
-  const Color through = optics_stand_in(m, 0.3F, ByRays::nothing).base_color;
+  const Color through = optics_stand_in(m, 0.3F, ByRays{}).base_color;
   EXPECT_LT((through - Color(0.729F, 0.125F, 0.008F)).abs().maxCoeff(), 1e-5F);
 }
 
@@ -54,9 +53,9 @@ TEST(OpticsStandIn, ACoatSharpens) {
   m.roughness = 0.8F;
   m.coat = 1.0F;
   m.coat_roughness = 0.1F;
-  EXPECT_FLOAT_EQ(optics_stand_in(m, 1.0F, ByRays::nothing).roughness, 0.1F);
+  EXPECT_FLOAT_EQ(optics_stand_in(m, 1.0F, ByRays{}).roughness, 0.1F);
   m.roughness = 0.05F;
-  EXPECT_FLOAT_EQ(optics_stand_in(m, 1.0F, ByRays::nothing).roughness, 0.05F);
+  EXPECT_FLOAT_EQ(optics_stand_in(m, 1.0F, ByRays{}).roughness, 0.05F);
 }
 
 TEST(RendererRemarks, SayWhatTheRasterizerDrawsInstead) {

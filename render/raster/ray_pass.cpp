@@ -1,0 +1,295 @@
+#include "render/raster/ray_pass.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+#include "render/path/brdf.h"
+#include "render/path/dielectric.h"
+#include "render/path/sampler.h"
+
+namespace lagomorph::render::raster {
+namespace {
+
+constexpr int tile_side = 32;             // pixels
+constexpr int most_surfaces = 16;         // that a ray meets
+constexpr float least_share = 0.02F;      // of the light, of one of two rays for both to go on
+constexpr float least_late_share = 0.1F;  // likewise at later surfaces
+constexpr int late = 3;
+
+/// Of n, sample k of a pixel: a rotated grid of 4, or of 16.
+Vec2 sample_place(int k, int n) {
+  static constexpr std::array<std::array<float, 2>, 4> rotated = {
+      {{0.375F, 0.875F}, {0.875F, 0.625F}, {0.125F, 0.375F}, {0.625F, 0.125F}}};
+  const auto& coarse = rotated[static_cast<std::size_t>(k % 4)];
+  if (n <= 4) return {coarse[0], coarse[1]};
+  const auto& fine = rotated[static_cast<std::size_t>(k / 4 % 4)];
+  return {coarse[0] + 0.25F * (fine[0] - 0.5F), coarse[1] + 0.25F * (fine[1] - 0.5F)};
+}
+
+int rays_a_pixel(float alpha) { return alpha > rough_alpha ? 16 : 4; }
+
+/// A square of the picture. All rays of a depth are traced together.
+class RayTile {
+public:
+  RayTile(const RayScene& scene, const Camera& camera, const DrawnPictures& pictures,
+          const PixelRectangle& at, int samples)
+      : scene_(scene),
+        camera_(camera),
+        pictures_(pictures),
+        at_(at),
+        samples_(samples),
+        light_(static_cast<std::size_t>(at.width) * static_cast<std::size_t>(at.height), Color::Zero()),
+        numbers_(0, 0, samples) {}
+
+  /// What is seen through clear meshes and mirrored by smooth ones.
+  void see_meshes() {
+    begin();
+    trace_rays(path::Coherence::coherent);
+    for (std::size_t i = 0; i < paths_.size(); ++i) look_at_mesh(i);
+    step_on();
+    go_on_to_end(1);
+  }
+
+  /// What the ground mirrors of meshes, in place of the sky behind them.
+  void see_in_ground() {
+    begin();
+    trace_rays(path::Coherence::coherent);
+    for (std::size_t i = 0; i < paths_.size(); ++i) look_at_ground(i);
+    step_on();
+    trace_rays(path::Coherence::incoherent);
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+      if (hits_[i].mesh == path::MeshHit::none) continue;
+      add(paths_[i], -scene_.sky(paths_[i].ray.direction));
+      arrive(i, 1, false);
+    }
+    step_on();
+    go_on_to_end(2);
+  }
+
+  /// Rows from the top.
+  void add_to(std::span<float> color) const {
+    const float weight = 1.0F / static_cast<float>(samples_);
+    for (int k = 0; k < at_.width * at_.height; ++k) {
+      const int pixel = (at_.y + k / at_.width) * camera_.width() + at_.x + k % at_.width;
+      float* to = color.data() + 3 * static_cast<std::size_t>(pixel);
+      const Color& light = light_[static_cast<std::size_t>(k)];
+      for (int c = 0; c < 3; ++c) to[c] = std::max(to[c] + weight * light[c], 0.0F);
+    }
+  }
+
+private:
+  /// A ray and what the light that comes along it counts for.
+  struct Path {
+    Ray ray;
+    Color share;
+    std::uint32_t pixel;   // of the tile
+    std::uint32_t sample;  // of the pixel
+    std::uint32_t inside;  // the mesh; MeshHit::none: it is outside
+  };
+
+  void add(const Path& p, const Color& radiance) { light_[p.pixel] += p.share * radiance; }
+
+  void begin() {
+    paths_.reserve(light_.size() * static_cast<std::size_t>(samples_));
+    for (std::uint32_t k = 0; k < light_.size(); ++k) {
+      const int x = at_.x + static_cast<int>(k) % at_.width, y = at_.y + static_cast<int>(k) / at_.width;
+      for (int s = 0; s < samples_; ++s) {
+        const Vec2 place = sample_place(s, samples_);
+        paths_.push_back({camera_.ray(static_cast<float>(x) + place.x(), static_cast<float>(y) + place.y()),
+                          Color::Ones(), k, static_cast<std::uint32_t>(s), path::MeshHit::none});
+      }
+    }
+  }
+
+  void trace_rays(path::Coherence coherence) {
+    rays_.clear();
+    for (const Path& p : paths_) rays_.push_back(p.ray);
+    hits_.resize(rays_.size());
+    scene_.geometry().caster().intersect(rays_, coherence, hits_);
+  }
+
+  void step_on() {
+    paths_.swap(next_);
+    next_.clear();
+  }
+
+  void go_on_to_end(int surfaces) {
+    for (; surfaces < most_surfaces && !paths_.empty(); ++surfaces) {
+      trace_rays(path::Coherence::incoherent);
+      for (std::size_t i = 0; i < paths_.size(); ++i) arrive(i, surfaces, true);
+      step_on();
+    }
+    // The rest is as bright as where it goes.
+    for (const Path& p : paths_) add(p, scene_.sky(p.ray.direction));
+  }
+
+  void look_at_mesh(std::size_t i) {
+    const path::MeshHit& hit = hits_[i];
+    if (hit.mesh == path::MeshHit::none || !scene_.surface(hit.mesh).by_rays.any()) return;
+    const Ray& ray = paths_[i].ray;
+    const path::TriangleHit met = scene_.geometry().meet(ray, hit);
+    if (scene_.geometry().meet_ground(ray) < met.t || scene_.light_is_before(ray, met.t)) return;
+    const path::SurfacePoint surface = scene_.geometry().arrive(ray, hit, met);
+    if (scene_.surface(hit.mesh).inside) {
+      pass(paths_[i], surface, hit.mesh, 0);
+    } else {
+      mirror(paths_[i], surface, scene_.surface(hit.mesh).alpha, 0,
+             scene_.mirrored_by_mesh(hit, met, -ray.direction.dot(surface.normal)));
+    }
+  }
+
+  /// Whatever is before the ground is drawn over it.
+  void look_at_ground(std::size_t i) {
+    const Path& p = paths_[i];
+    const double distance = scene_.geometry().meet_ground(p.ray);
+    if (distance >= path::SceneGeometry::never) return;
+    const path::SurfacePoint surface = scene_.geometry().arrive_at_ground(p.ray, distance);
+    mirror(p, surface, scene_.ground_alpha(), 0,
+           scene_.mirrored_by_ground(scene_.geometry().ground_point(p.ray, distance),
+                                     -p.ray.direction.dot(surface.normal)));
+  }
+
+  void mirror(Path p, const path::SurfacePoint& surface, float alpha, int surfaces,
+              const Color& reflectance) {
+    p.share *= reflectance;
+    if (p.share.maxCoeff() <= (surfaces == 0 ? 0.0F : least_share)) return;
+    const Vec3 h = facet(p, surface, alpha, surfaces);
+    const Vec3 direction = path::reflected(-p.ray.direction, h).normalized();
+    if (direction.dot(surface.normal) <= 0.0F) return;
+    p.ray = {surface.origin, direction, 1.0F};
+    next_.push_back(p);
+  }
+
+  /// `with_lights`: adds those that are met.
+  void arrive(std::size_t i, int surfaces, bool with_lights) {
+    const path::MeshHit& hit = hits_[i];
+    Path p = paths_[i];
+    const path::SceneGeometry& geometry = scene_.geometry();
+    const bool on_mesh = hit.mesh != path::MeshHit::none;
+    const path::TriangleHit met = on_mesh ? geometry.meet(p.ray, hit) : path::TriangleHit{};
+    double far = on_mesh ? met.t : path::SceneGeometry::never;
+    const bool is_inside = p.inside != path::MeshHit::none;
+    const double ground = is_inside ? path::SceneGeometry::never : geometry.meet_ground(p.ray);
+    const bool on_ground = ground < far;
+    if (on_ground) far = ground;
+    if (is_inside && on_mesh)
+      p.share *= scene_.surface(p.inside).inside->absorption.transmittance(static_cast<float>(far));
+    if (with_lights) add(p, scene_.light_met(p.ray, far));
+    if (on_ground) {
+      const Vec3 point = geometry.ground_point(p.ray, ground);
+      add(p, scene_.of_ground(camera_, pictures_, point, p.ray.direction));
+    } else if (!on_mesh) {
+      add(p, scene_.sky(p.ray.direction));
+    } else {
+      const path::SurfacePoint surface = geometry.arrive(p.ray, hit, met);
+      const RayScene::Surface& of = scene_.surface(hit.mesh);
+      if (of.inside) {
+        pass(p, surface, hit.mesh, surfaces);
+        return;
+      }
+      add(p, scene_.of_mesh(camera_, pictures_, hit, met, surface));
+      if (of.by_rays.mirrored) {
+        mirror(p, surface, of.alpha, surfaces,
+               scene_.mirrored_by_mesh(hit, met, -p.ray.direction.dot(surface.normal)));
+      }
+    }
+  }
+
+  /// The normal of the microfacet that is met.
+  Vec3 facet(const Path& p, const path::SurfacePoint& surface, float alpha, int surfaces) const {
+    const Vec3& n = surface.normal;
+    if (alpha <= 0.0F) return n;
+    Vec3 t, b;
+    path::make_frame(n, t, b);
+    const Vec3 wo(-p.ray.direction.dot(t), -p.ray.direction.dot(b), -p.ray.direction.dot(n));
+    const int x = at_.x + static_cast<int>(p.pixel) % at_.width;
+    const int y = at_.y + static_cast<int>(p.pixel) / at_.width;
+    const path::PathSamples numbers = numbers_.path(x, y, static_cast<int>(p.sample));
+    const Vec3 h = path::sample_visible_normal(wo, alpha, numbers.pair(static_cast<std::uint32_t>(surfaces)));
+    return (h.x() * t + h.y() * b + h.z() * n).normalized();
+  }
+
+  /// Through the surface of a clear mesh and back from it.
+  void pass(const Path& p, const path::SurfacePoint& surface, std::uint32_t mesh, int surfaces) {
+    const RayScene::Surface& of = scene_.surface(mesh);
+    const RayScene::Inside& inside = *of.inside;
+    const float eta = surface.inside ? 1.0F / inside.ior : inside.ior;
+    const Vec3 wo = -p.ray.direction;
+    const Vec3 h = facet(p, surface, of.alpha, surfaces);
+    const float mirrored = path::fresnel(std::min(wo.dot(h), 1.0F), eta);
+    Path on = p, back = p;
+    on.share *= 1.0F - mirrored;
+    back.share *= mirrored;
+    if (surfaces == 0) {
+      on.share *= inside.share;
+      if (!of.by_rays.mirrored) back.share = Color::Zero();
+    } else {
+      // Of a dim one the other takes the share.
+      const float least = surfaces < late ? least_share : least_late_share;
+      if (back.share.maxCoeff() < least || on.share.maxCoeff() < least) {
+        const bool back_is_more = mirrored > 0.5F;
+        (back_is_more ? back : on).share = p.share;
+        (back_is_more ? on : back).share = Color::Zero();
+      }
+    }
+    if (on.share.maxCoeff() > 0.0F) {
+      on.ray = {surface.beyond, path::refracted(wo, h, eta).normalized(), 1.0F};
+      on.inside = surface.inside ? path::MeshHit::none : mesh;
+      next_.push_back(on);
+    }
+    if (back.share.maxCoeff() > 0.0F) {
+      back.ray = {surface.origin, path::reflected(wo, h).normalized(), 1.0F};
+      next_.push_back(back);
+    }
+  }
+
+  const RayScene& scene_;
+  const Camera& camera_;
+  const DrawnPictures& pictures_;
+  PixelRectangle at_;  // y from the top
+  int samples_;
+  std::vector<Color> light_;
+  path::FrameSamples numbers_;
+  std::vector<Path> paths_, next_;
+  std::vector<Ray> rays_;
+  std::vector<path::MeshHit> hits_;
+};
+
+/// Calls see(tile) for those of a rectangle, and adds what they see.
+template <class See>
+void for_tiles(const RayScene& scene, const Camera& camera, const DrawnPictures& pictures,
+               const PixelRectangle& rectangle, int samples, std::span<float> color, const See& see) {
+  if (rectangle.width <= 0 || rectangle.height <= 0) return;
+  const int right = rectangle.x + rectangle.width, bottom = camera.height() - rectangle.y;
+  const int top = bottom - rectangle.height;
+  const int columns = (rectangle.width + tile_side - 1) / tile_side;
+  const int rows = (rectangle.height + tile_side - 1) / tile_side;
+  tbb::parallel_for(0, columns * rows, [&](int k) {
+    const int x = rectangle.x + k % columns * tile_side, y = top + k / columns * tile_side;
+    const PixelRectangle at = {x, y, std::min(tile_side, right - x), std::min(tile_side, bottom - y)};
+    RayTile tile(scene, camera, pictures, at, samples);
+    see(tile);
+    tile.add_to(color);
+  });
+}
+
+}  // namespace
+
+void add_by_rays(const RayScene& scene, const Camera& camera, const DrawnPictures& pictures,
+                 const PixelRectangle& rectangle, std::span<float> color) {
+  for_tiles(scene, camera, pictures, rectangle, rays_a_pixel(scene.roughest()), color,
+            [](RayTile& tile) { tile.see_meshes(); });
+}
+
+void add_mirrored_by_ground(const RayScene& scene, const Camera& camera, const DrawnPictures& pictures,
+                            const PixelRectangle& rectangle, std::span<float> color) {
+  for_tiles(scene, camera, pictures, rectangle, rays_a_pixel(scene.ground_alpha()), color,
+            [](RayTile& tile) { tile.see_in_ground(); });
+}
+
+}  // namespace lagomorph::render::raster

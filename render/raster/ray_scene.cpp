@@ -1,0 +1,246 @@
+#include "render/raster/ray_scene.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "render/ground_texture.h"
+#include "render/path/dielectric.h"
+#include "render/raster/optics_stand_in.h"
+#include "render/raster/stand_ins.h"
+
+namespace lagomorph::render::raster {
+namespace {
+
+constexpr float least_sun = 3e-3F;      // solid angle of suns that four rays a pixel show without noise [sr]
+constexpr std::size_t facing_down = 3;  // of ways to face
+constexpr float roughest_mirror = 0.35F;  // of the ground, that rays show
+
+float clear_part(const Material& m) { return (1.0F - m.metallic) * m.transmission; }
+
+float dielectric_f0(const Material& m) {
+  const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
+  return r * r;
+}
+
+Color bilinear(std::span<const float> picture, int width, int height, const Vec2& at) {
+  const float x = std::clamp(at.x() - 0.5F, 0.0F, static_cast<float>(width - 1));
+  const float y = std::clamp(at.y() - 0.5F, 0.0F, static_cast<float>(height - 1));
+  const int x0 = std::min(static_cast<int>(x), std::max(width - 2, 0));
+  const int y0 = std::min(static_cast<int>(y), std::max(height - 2, 0));
+  const float u = x - static_cast<float>(x0), v = y - static_cast<float>(y0);
+  const auto texel = [&](int i, int j) {
+    const auto k = 3 * (static_cast<std::size_t>(std::min(j, height - 1)) * static_cast<std::size_t>(width) +
+                        static_cast<std::size_t>(std::min(i, width - 1)));
+    return Color(picture[k], picture[k + 1], picture[k + 2]);
+  };
+  const Color low = (1.0F - u) * texel(x0, y0) + u * texel(x0 + 1, y0);
+  const Color high = (1.0F - u) * texel(x0, y0 + 1) + u * texel(x0 + 1, y0 + 1);
+  return (1.0F - v) * low + v * high;
+}
+
+/// Where the camera sees a point; none outside of the picture.
+std::optional<Vec2> place_in(const Camera& camera, const Vec3& point) {
+  if (!camera.is_orthographic() && camera.depth(point) <= 0.0F) return std::nullopt;
+  const Vec2 at = camera.project(point);
+  if (at.x() < 0.0F || at.y() < 0.0F || at.x() > static_cast<float>(camera.width()) ||
+      at.y() > static_cast<float>(camera.height()))
+    return std::nullopt;
+  return at;
+}
+
+/// Irradiance from the sky above the horizon, and below it from an open ground that the same sky lights, on
+/// six ways to face.
+std::array<Color, 6> ambient_light(const Sky& sky, const Ground& ground) {
+  constexpr int count = 512;
+  std::array<Color, 6> sums;
+  sums.fill(Color::Zero());
+  std::array<Color, 6> below = sums;
+  for (int k = 0; k < count; ++k) {
+    const double y = 1.0 - (2.0 * k + 1.0) / count, turn = 0.61803398874989485 * k;
+    const double across = std::sqrt(1.0 - y * y), phi = 2.0 * std::numbers::pi * (turn - std::floor(turn));
+    const Vec3 d(static_cast<float>(across * std::cos(phi)), static_cast<float>(y),
+                 static_cast<float>(across * std::sin(phi)));
+    const bool of_ground = ground.enabled && d.y() < 0.0F;
+    const Color light = of_ground ? Color::Zero() : sky_radiance(sky, d);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto at = static_cast<std::size_t>(2 * axis + (d[axis] < 0.0F ? 1 : 0));
+      const float weight = std::abs(d[axis]) * 4.0F * std::numbers::pi_v<float> / count;
+      sums[at] += weight * light;
+      if (of_ground) below[at] += Color::Constant(weight);
+    }
+  }
+  const Color ground_radiance = std::numbers::inv_pi_v<float> * ground.material.base_color * sums[2];
+  for (std::size_t k = 0; k < 6; ++k) sums[k] += below[k] * ground_radiance;
+  return sums;
+}
+
+}  // namespace
+
+ByRays drawn_by_rays(const RenderScene& scene, const Mesh& mesh) {
+  if (std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                  [](const Mesh& m) { return m.material.opacity < 1.0F; }))
+    return {};
+  const Material& m = mesh.material;
+  const bool behind = clear_part(m) > 0.0F && mesh.colors.empty();
+  const bool misses_none = std::all_of(scene.suns.begin(), scene.suns.end(),
+                                       [](const Sun& sun) { return solid_angle(sun) > least_sun; });
+  const Material drawn = optics_stand_in(m, 1.0F, {});
+  const bool smooth = alpha_for_rays(drawn) <= rough_alpha && (m.metallic > 0.0F || m.ior > 1.0F);
+  return {behind, smooth && misses_none && !(behind && m.coat > 0.0F)};
+}
+
+float light_through(const Material& m, float thickness) {
+  // In and out through surfaces at the mean angle.
+  const float once = 1.0F - path::fresnel(2.0F / 3.0F, std::max(m.ior, 1.001F));
+  const Color inside = path::Absorption(m).transmittance(thickness);
+  return clear_part(m) * once * once * (0.2126F * inside.x() + 0.7152F * inside.y() + 0.0722F * inside.z());
+}
+
+bool mirrors_by_rays(const Ground& ground) {
+  const Material& m = ground.material;
+  return ground.enabled && m.roughness <= roughest_mirror && (m.metallic > 0.0F || m.ior > 1.0F);
+}
+
+float alpha_for_rays(const Material& m) {
+  const float alpha = m.roughness * m.roughness;
+  return alpha <= smooth_alpha ? 0.0F : alpha;
+}
+
+RayScene::RayScene(const RenderScene& scene, std::span<const AreaLight> lights)
+    : geometry_(scene),
+      ambient_(ambient_light(scene.sky, scene.ground)),
+      ground_(scene.ground),
+      sky_(scene.sky),
+      has_background_(scene.background.has_value()),
+      ground_alpha_(alpha_for_rays(scene.ground.material)),
+      ground_mirror_(scene.ground.material) {
+  for (const Mesh& mesh : scene.meshes) {
+    const Material& m = mesh.material;
+    const Material drawn = optics_stand_in(m, mean_chord(mesh.positions, mesh.triangles), {});
+    Surface& surface = surfaces_.emplace_back();
+    surface.by_rays = drawn_by_rays(scene, mesh);
+    surface.alpha = alpha_for_rays(surface.by_rays.behind ? m : drawn);
+    surface.base_color = drawn.base_color;
+    surface.diffuse = drawn.base_color;
+    if (surface.by_rays.any()) roughest_ = std::max(roughest_, surface.alpha);
+    if (surface.by_rays.behind)
+      surface.inside = {path::Absorption(m), std::max(m.ior, 1.001F), clear_part(m)};
+    if (surface.by_rays.mirrored) {
+      surface.mirror.emplace(drawn);
+      surface.diffuse *= 1.0F - m.metallic;
+    }
+  }
+  for (const AreaLight& light : lights) {
+    lights_.emplace_back(light);
+    const float square = (light.position - light.look_at).squaredNorm();
+    met_.push_back(light.size.prod() > least_sun * square ? 1 : 0);
+  }
+}
+
+RayScene::Mirror::Mirror(const Material& m) : metallic(m.metallic), f0(dielectric_f0(m)), coat{} {
+  for (int k = 0; k <= cosines; ++k) {
+    const float cosine = std::max(static_cast<float>(k) / cosines, 1e-3F);
+    coat[static_cast<std::size_t>(k)] = coat_albedo(cosine, m.roughness);
+  }
+}
+
+Color RayScene::Mirror::reflectance(float cosine, const Color& base_color) const {
+  const float at = std::clamp(cosine, 0.0F, 0x1.fffffep-1F) * cosines;
+  const auto k = static_cast<std::size_t>(at);
+  const float t = at - static_cast<float>(k);
+  const CoatAlbedo &a = coat[k], &b = coat[k + 1];
+  const float scale = a.scale + t * (b.scale - a.scale), offset = a.offset + t * (b.offset - a.offset);
+  const Color at_normal = (1.0F - metallic) * f0 + metallic * base_color;
+  return scale * at_normal + std::min(1.0F, 50.0F * at_normal.maxCoeff()) * offset;
+}
+
+Color RayScene::mirrored_by_mesh(const path::MeshHit& hit, const path::TriangleHit& met, float cosine) const {
+  const Surface& s = surfaces_[hit.mesh];
+  return s.mirror->reflectance(cosine, geometry_.color_at(hit, met).value_or(s.base_color));
+}
+
+Color RayScene::mirrored_by_ground(const Vec3& point, float cosine) const {
+  return (1.0F - ground_fade(ground_, point)) *
+         ground_mirror_.reflectance(cosine, ground_color_at(ground_, point));
+}
+
+bool RayScene::light_is_before(const Ray& ray, double far) const {
+  return std::any_of(lights_.begin(), lights_.end(), [&](const path::RectangleLight& light) {
+    const double distance = light.visible() ? light.intersect(ray).distance : 0.0;
+    return distance > 0.0 && distance < far;
+  });
+}
+
+Color RayScene::light_met(const Ray& ray, double far) const {
+  Color sum = Color::Zero();
+  for (std::size_t k = 0; k < lights_.size(); ++k) {
+    if (met_[k] == 0) continue;
+    const double distance = lights_[k].intersect(ray).distance;
+    if (distance > 0.0 && distance < far) sum += lights_[k].radiance();
+  }
+  return sum;
+}
+
+/// Of lights that nothing hides, of the sky, and from below, as it falls on what faces down.
+Color RayScene::irradiance(const Vec3& point, const Vec3& normal, const Color& from_below) const {
+  Color sum = Color::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<std::size_t>(2 * axis + (normal[axis] < 0.0F ? 1 : 0));
+    sum += normal[axis] * normal[axis] * (at == facing_down ? from_below : ambient_[at]);
+  }
+  constexpr int side = 3;
+  for (const path::RectangleLight& light : lights_) {
+    const path::Rectangle& r = light.shape();
+    float form = 0.0F;
+    for (int k = 0; k < side * side; ++k) {
+      const float x = (static_cast<float>(k % side) + 0.5F) / side - 0.5F;
+      const float y = (static_cast<float>(k / side) + 0.5F) / side - 0.5F;
+      const Vec3 to = vec3(r.center + x * r.width * r.u + y * r.height * r.v) - point;
+      const float square = to.squaredNorm();
+      const float cosines = std::max(to.dot(normal), 0.0F) * std::max(-to.dot(vec3(r.normal)), 0.0F);
+      form += cosines / std::max(square * square, 1e-12F);
+    }
+    sum += form * r.width * r.height / (side * side) * light.radiance();
+  }
+  return sum;
+}
+
+Color RayScene::of_ground(const Camera& camera, const DrawnPictures& pictures, const Vec3& point,
+                          const Vec3& direction) const {
+  const float fade = ground_fade(ground_, point);
+  const std::optional<Vec2> at = place_in(camera, point);
+  if (at && (fade <= 0.0F || !has_background_))
+    return bilinear(pictures.still, camera.width(), camera.height(), *at);
+  const Color ground = std::numbers::inv_pi_v<float> * ground_color_at(ground_, point) *
+                       irradiance(point, Vec3::UnitY(), ambient_[facing_down]);
+  return (1.0F - fade) * ground + fade * sky(direction);
+}
+
+Color RayScene::of_mesh(const Camera& camera, const DrawnPictures& pictures, const path::MeshHit& hit,
+                        const path::TriangleHit& met, const path::SurfacePoint& surface) const {
+  if (const std::optional<Vec2> at = place_in(camera, surface.origin)) {
+    const PixelRectangle& r = pictures.surfaces.at;
+    const int x = static_cast<int>(at->x()) - r.x;
+    const int y = camera.height() - 1 - static_cast<int>(at->y()) - r.y;
+    const SurfaceTexel* texel = pictures.surfaces.find(x, y);
+    const float depth = camera.depth(surface.origin);
+    if (texel != nullptr && std::abs(std::bit_cast<float>(texel->depth) - depth) <
+                                4.0F * camera.pixel_size(depth) + 2e-3F * depth)
+      return bilinear(pictures.solid, camera.width(), camera.height(), *at);
+  }
+  const Surface& s = surfaces_[hit.mesh];
+  const std::optional<Color> own = geometry_.color_at(hit, met);
+  const Color base = own && !s.by_rays.mirrored ? *own : s.diffuse;
+  // What hangs over the ground is lit by what is in its shadow there.
+  Color from_below = ambient_[facing_down];
+  if (geometry_.ground().met >= 0.0 && surface.origin.y() > ground_.height) {
+    const Vec3 under(surface.origin.x(), ground_.height, surface.origin.z());
+    from_below = std::numbers::pi_v<float> * of_ground(camera, pictures, under, -Vec3::UnitY());
+  }
+  return std::numbers::inv_pi_v<float> * base * irradiance(surface.origin, surface.normal, from_below);
+}
+
+}  // namespace lagomorph::render::raster

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "render/camera.h"
+#include "render/coat_albedo.h"
+#include "render/path/light.h"
+#include "render/path/medium.h"
+#include "render/path/scene_geometry.h"
+#include "render/raster/receivers.h"
+#include "render/render_scene.h"
+
+/// What rays of the rasterizer meet, and the light that comes from there.
+namespace lagomorph::render::raster {
+
+/// What of a mesh is drawn by rays: nothing where a mesh of the scene is see-through.
+struct ByRays {
+  bool behind = false;    // what is seen through its clear inside, where it has no colours of its vertices
+  bool mirrored = false;  // where it is so smooth that few rays show that without noise, beside suns that
+                          // rays do not miss
+  bool any() const { return behind || mirrored; }
+};
+ByRays drawn_by_rays(const RenderScene&, const Mesh&);
+/// Part of the light that comes through a mesh with a clear inside whose mean thickness is `thickness` [m].
+float light_through(const Material&, float thickness);
+/// Whether rays show the meshes that the ground mirrors: it is smooth enough.
+bool mirrors_by_rays(const Ground&);
+
+/// How rough surfaces are to rays; from some roughness on, a pixel takes more rays.
+constexpr float smooth_alpha = 2e-3F;  // up to which they are drawn as if they were smooth
+constexpr float rough_alpha = 1e-2F;
+float alpha_for_rays(const Material&);
+
+/// Linear colours, interleaved, rows from the top: without any mesh, and without the clear ones, of which
+/// `surfaces` says where meshes are. There smooth meshes mirror nothing yet.
+struct DrawnPictures {
+  std::span<const float> still, solid;
+  SurfaceTexels surfaces;
+};
+
+class RayScene {
+public:
+  /// With the lights that are drawn. Throws DeviceError as RayCaster does.
+  RayScene(const RenderScene&, std::span<const AreaLight> lights);
+
+  path::SceneGeometry& geometry() { return geometry_; }
+  const path::SceneGeometry& geometry() const { return geometry_; }
+
+  struct Inside {
+    path::Absorption absorption;
+    float ior;
+    float share;  // of the light that comes through the surface, which goes on inside
+  };
+  /// A coat or a metal.
+  struct Mirror {
+    explicit Mirror(const Material&);
+    /// What it reflects along a cosine, of what it mirrors.
+    Color reflectance(float cosine, const Color& base_color) const;
+
+    float metallic, f0;
+    static constexpr int cosines = 64;
+    std::array<CoatAlbedo, cosines + 1> coat;
+  };
+  struct Surface {
+    ByRays by_rays;
+    float alpha = 0.0F;
+    Color base_color, diffuse;  // the latter: what of it is not drawn by rays
+    std::optional<Inside> inside;
+    std::optional<Mirror> mirror;
+  };
+  const Surface& surface(std::size_t mesh) const { return surfaces_[mesh]; }
+  /// alpha of the roughest of those that are drawn by rays.
+  float roughest() const { return roughest_; }
+  float ground_alpha() const { return ground_alpha_; }
+  /// Of a mesh that mirrors by rays.
+  Color mirrored_by_mesh(const path::MeshHit&, const path::TriangleHit&, float cosine) const;
+  /// At a point of the ground, less its fade.
+  Color mirrored_by_ground(const Vec3& point, float cosine) const;
+
+  /// Whether the camera sees a light before that.
+  bool light_is_before(const Ray&, double distance) const;
+  /// Radiance of lights that a ray meets before that.
+  Color light_met(const Ray&, double distance) const;
+  Color sky(const Vec3& direction) const { return sky_radiance(sky_, direction); }
+  /// Of the ground from where a ray meets it, as the picture without meshes shows it; outside of that, lit as
+  /// if nothing were around.
+  Color of_ground(const Camera&, const DrawnPictures&, const Vec3& point, const Vec3& direction) const;
+  /// Of an opaque mesh, as the picture without clear meshes shows it where it is seen there; else as in the
+  /// open.
+  Color of_mesh(const Camera&, const DrawnPictures&, const path::MeshHit&, const path::TriangleHit&,
+                const path::SurfacePoint&) const;
+
+private:
+  Color irradiance(const Vec3& point, const Vec3& normal, const Color& from_below) const;
+
+  path::SceneGeometry geometry_;
+  std::vector<Surface> surfaces_;  // of each mesh
+  std::vector<path::RectangleLight> lights_;
+  std::vector<char> met_;         // lights that rays meet: 0 for small suns, which they would miss
+  std::array<Color, 6> ambient_;  // irradiance of sky and open ground on surfaces that face +x, -x, +y ...
+  Ground ground_;
+  Sky sky_;
+  bool has_background_;  // a colour, which only the camera sees
+  float roughest_ = 0.0F;
+  float ground_alpha_;
+  Mirror ground_mirror_;
+};
+
+}  // namespace lagomorph::render::raster
