@@ -20,6 +20,8 @@ constexpr int most_surfaces = 16;         // that a ray meets
 constexpr float least_share = 0.02F;      // of the light, of one of two rays for both to go on
 constexpr float least_late_share = 0.1F;  // likewise at later surfaces
 constexpr int late = 3;
+constexpr int fewest_rays = 4;        // a pixel
+constexpr float most_of_lamp = 2.0F;  // in one of more rays
 
 /// Of n, sample k of a pixel: a rotated grid of 4, or of 16.
 Vec2 sample_place(int k, int n) {
@@ -31,7 +33,7 @@ Vec2 sample_place(int k, int n) {
   return {coarse[0] + 0.25F * (fine[0] - 0.5F), coarse[1] + 0.25F * (fine[1] - 0.5F)};
 }
 
-int rays_a_pixel(float alpha) { return alpha > rough_alpha ? 16 : 4; }
+int rays_a_pixel(float alpha) { return alpha > rough_alpha ? 4 * fewest_rays : fewest_rays; }
 
 /// A square of the picture. All rays of a depth are traced together.
 class RayTile {
@@ -93,6 +95,12 @@ private:
   };
 
   void add(const Path& p, const Color& radiance) { light_[p.pixel] += p.share * radiance; }
+
+  /// What a rough surface spreads a bright lamp into would be grains.
+  void add_light(const Path& p, const Color& radiance) {
+    const Color light = p.share * radiance;
+    light_[p.pixel] += samples_ > fewest_rays ? Color(light.min(most_of_lamp)) : light;
+  }
 
   void begin() {
     paths_.reserve(light_.size() * static_cast<std::size_t>(samples_));
@@ -179,7 +187,7 @@ private:
     if (on_ground) far = ground;
     if (is_inside && on_mesh)
       p.share *= scene_.surface(p.inside).inside->absorption.transmittance(static_cast<float>(far));
-    if (with_lights) add(p, scene_.light_met(p.ray, far));
+    if (with_lights) add_light(p, scene_.light_met(p.ray, far));
     if (on_ground) {
       const Vec3 point = geometry.ground_point(p.ray, ground);
       add(p, scene_.of_ground(camera_, pictures_, point, p.ray.direction));

@@ -16,6 +16,7 @@ namespace {
 
 constexpr float least_sun = 3e-3F;      // solid angle of suns that four rays a pixel show without noise [sr]
 constexpr std::size_t facing_down = 3;  // of ways to face
+constexpr float least_facing = 0.15F;   // cosine of what the picture shows well enough
 constexpr float roughest_mirror = 0.35F;  // of the ground, that rays show
 
 float clear_part(const Material& m) { return (1.0F - m.metallic) * m.transmission; }
@@ -184,8 +185,21 @@ Color RayScene::light_met(const Ray& ray, double far) const {
   return sum;
 }
 
-/// Of lights that nothing hides, of the sky, and from below, as it falls on what faces down.
-Color RayScene::irradiance(const Vec3& point, const Vec3& normal, const Color& from_below) const {
+/// By an opaque mesh.
+bool RayScene::is_hidden(const Vec3& from, const Vec3& light) const {
+  const Vec3 to = light - from;
+  const float distance = to.norm();
+  const Ray ray{from, to / distance, 1.0F};
+  path::MeshHit hit;
+  geometry_.caster().intersect({&ray, 1}, path::Coherence::incoherent, {&hit, 1});
+  return hit.mesh != path::MeshHit::none && !surfaces_[hit.mesh].inside &&
+         geometry_.meet(ray, hit).t < static_cast<double>(distance);
+}
+
+/// Of lights that nothing hides, or none of whose middles, of the sky, and from below, as it falls on what
+/// faces down.
+Color RayScene::irradiance(const Vec3& point, const Vec3& normal, const Color& from_below,
+                           bool with_shadows) const {
   Color sum = Color::Zero();
   for (int axis = 0; axis < 3; ++axis) {
     const auto at = static_cast<std::size_t>(2 * axis + (normal[axis] < 0.0F ? 1 : 0));
@@ -194,6 +208,7 @@ Color RayScene::irradiance(const Vec3& point, const Vec3& normal, const Color& f
   constexpr int side = 3;
   for (const path::RectangleLight& light : lights_) {
     const path::Rectangle& r = light.shape();
+    if (with_shadows && is_hidden(point, vec3(r.center))) continue;
     float form = 0.0F;
     for (int k = 0; k < side * side; ++k) {
       const float x = (static_cast<float>(k % side) + 0.5F) / side - 0.5F;
@@ -215,21 +230,39 @@ Color RayScene::of_ground(const Camera& camera, const DrawnPictures& pictures, c
   if (at && (fade <= 0.0F || !has_background_))
     return bilinear(pictures.still, camera.width(), camera.height(), *at);
   const Color ground = std::numbers::inv_pi_v<float> * ground_color_at(ground_, point) *
-                       irradiance(point, Vec3::UnitY(), ambient_[facing_down]);
+                       irradiance(point, Vec3::UnitY(), ambient_[facing_down], false);
   return (1.0F - fade) * ground + fade * sky(direction);
+}
+
+/// How much what the picture shows where the camera sees a point of an opaque mesh, at a place in it, is that
+/// point: not at silhouettes, whose pixels are stretched over what turns away.
+float RayScene::trust(const Camera& camera, const DrawnPictures& pictures, const path::SurfacePoint& surface,
+                      const Vec2& place) {
+  const Ray ray = camera.ray(place.x(), place.y());
+  const float facing = -ray.direction.dot(surface.normal);
+  if (facing <= least_facing) return 0.0F;
+  const PixelRectangle& r = pictures.surfaces.at;
+  const int x = static_cast<int>(place.x()) - r.x,
+            y = camera.height() - 1 - static_cast<int>(place.y()) - r.y;
+  const float depth = camera.depth(surface.origin);
+  const float pixel = camera.pixel_size(depth) / facing;
+  for (int k = 0; k < 9; ++k) {
+    const SurfaceTexel* texel = pictures.surfaces.find(x + k % 3 - 1, y + k / 3 - 1);
+    if (texel == nullptr ||
+        std::abs(std::bit_cast<float>(texel->depth) - depth) > 4.0F * pixel + 1e-3F * depth)
+      return 0.0F;
+  }
+  return std::min((facing - least_facing) / least_facing, 1.0F);
 }
 
 Color RayScene::of_mesh(const Camera& camera, const DrawnPictures& pictures, const path::MeshHit& hit,
                         const path::TriangleHit& met, const path::SurfacePoint& surface) const {
+  Color seen = Color::Zero();
+  float part = 0.0F;
   if (const std::optional<Vec2> at = place_in(camera, surface.origin)) {
-    const PixelRectangle& r = pictures.surfaces.at;
-    const int x = static_cast<int>(at->x()) - r.x;
-    const int y = camera.height() - 1 - static_cast<int>(at->y()) - r.y;
-    const SurfaceTexel* texel = pictures.surfaces.find(x, y);
-    const float depth = camera.depth(surface.origin);
-    if (texel != nullptr && std::abs(std::bit_cast<float>(texel->depth) - depth) <
-                                4.0F * camera.pixel_size(depth) + 2e-3F * depth)
-      return bilinear(pictures.solid, camera.width(), camera.height(), *at);
+    part = trust(camera, pictures, surface, *at);
+    if (part > 0.0F) seen = bilinear(pictures.solid, camera.width(), camera.height(), *at);
+    if (part >= 1.0F) return seen;
   }
   const Surface& s = surfaces_[hit.mesh];
   const std::optional<Color> own = geometry_.color_at(hit, met);
@@ -240,7 +273,8 @@ Color RayScene::of_mesh(const Camera& camera, const DrawnPictures& pictures, con
     const Vec3 under(surface.origin.x(), ground_.height, surface.origin.z());
     from_below = std::numbers::pi_v<float> * of_ground(camera, pictures, under, -Vec3::UnitY());
   }
-  return std::numbers::inv_pi_v<float> * base * irradiance(surface.origin, surface.normal, from_below);
+  return part * seen + (1.0F - part) * std::numbers::inv_pi_v<float> * base *
+                           irradiance(surface.origin, surface.normal, from_below, true);
 }
 
 }  // namespace lagomorph::render::raster

@@ -94,7 +94,9 @@ public:
                 const path::SurfacePoint&) const;
 
 private:
-  Color irradiance(const Vec3& point, const Vec3& normal, const Color& from_below) const;
+  Color irradiance(const Vec3& point, const Vec3& normal, const Color& from_below, bool with_shadows) const;
+  bool is_hidden(const Vec3& from, const Vec3& light) const;
+  static float trust(const Camera&, const DrawnPictures&, const path::SurfacePoint&, const Vec2& place);
 
   path::SceneGeometry geometry_;
   std::vector<Surface> surfaces_;  // of each mesh

@@ -68,8 +68,8 @@ TEST(RendererRemarks, SayWhatTheRasterizerDrawsInstead) {
   const std::vector<std::string> told = renderer_remarks(settings, {}, scene);
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0],
-            "raster: look of 'jelly': transmission is an opaque base of absorption_color "
-            "through its mean thickness; sheen is left out");
+            "raster: look of 'jelly': its shadow is as light as it is clear, without colours and "
+            "caustics; sheen is left out");
   settings.backend = "path";
   EXPECT_TRUE(renderer_remarks(settings, {}, scene).empty());
 }
