@@ -16,7 +16,7 @@
 namespace lagomorph::render {
 
 /// A dielectric over a diffuse base, or a metal: GGX microfacets with Smith masking, Schlick's Fresnel. What
-/// begins at 0 below only the path tracer draws; see raster/optics_stand_in.h. Of a surface that is not
+/// begins at 0 below the rasterizer draws in part; see raster/optics_stand_in.h. Of a surface that is not
 /// opaque the rest is not there: light goes straight on.
 struct Material {
   Color base_color =

@@ -17,6 +17,9 @@ public:
   float evaluate(const Vec3& wo, const Vec3& wi) const;
   /// Directional albedo, <= 1.
   float albedo(float cosine) const;
+  /// 1 / a, and what f is scaled by.
+  float power() const { return power_; }
+  float scale() const { return scale_; }
 
 private:
   static constexpr int intervals = 64;

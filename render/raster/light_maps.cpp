@@ -11,6 +11,7 @@
 #include "render/raster/sky_light.h"
 #include "render/raster/sky_model.h"
 #include "render/raster/stand_ins.h"
+#include "render/raster/tables.h"
 
 namespace lagomorph::render::raster {
 namespace {
@@ -24,24 +25,6 @@ constexpr int least_map_size = 256;
 constexpr int sky_table_size = 64;
 constexpr int coat_table_size = 32;
 constexpr int widest_sky_picture = 8192;  // 512 MB with its levels
-
-void sampling(GLenum target, GLenum minify, GLenum magnify) {
-  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(minify));
-  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(magnify));
-  glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-}
-
-/// Of two or four floats an entry.
-template <class Entry>
-void allocate_table(const Texture& texture, int width, int height, const std::vector<Entry>& entries) {
-  static_assert(sizeof(Entry) == 8 || sizeof(Entry) == 16);
-  constexpr bool pairs = sizeof(Entry) == 8;
-  glBindTexture(GL_TEXTURE_2D, texture.id());
-  glTexStorage2D(GL_TEXTURE_2D, 1, pairs ? GL_RG32F : GL_RGBA32F, width, height);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, pairs ? GL_RG : GL_RGBA, GL_FLOAT, entries.data());
-  sampling(GL_TEXTURE_2D, GL_LINEAR, GL_LINEAR);
-}
 
 /// A level each.
 void allocate_cubes(const Texture& texture, std::span<const CubeMap<Vec4>> levels) {

@@ -9,6 +9,8 @@
 
 namespace lagomorph::render::raster {
 
+constexpr float mean_of_coat = 0.06F;  // what it reflects of most views
+
 float mean_chord(std::span<const Vec3> positions, std::span<const Triangle> triangles) {
   double volume = 0.0, area = 0.0;
   for (const Triangle& t : triangles) {
@@ -26,7 +28,11 @@ Material optics_stand_in(const Material& m, float thickness, ByRays by_rays) {
                                           : Color(m.absorption_color.pow(thickness / m.absorption_distance));
   Material drawn = m;
   drawn.base_color = albedo(clear);
-  drawn.roughness += m.coat * (std::min(m.roughness, m.coat_roughness) - m.roughness);
+  if (by_rays.mirrored) {
+    drawn.base_color *= 1.0F - mean_of_coat * m.coat;
+  } else {
+    drawn.roughness += m.coat * (std::min(m.roughness, m.coat_roughness) - m.roughness);
+  }
   return drawn;
 }
 
@@ -45,8 +51,8 @@ std::vector<std::string> optics_remarks(const RenderScene& scene) {
                       "colours or other bodies' opacity");
     }
     add(m.subsurface > 0.0F, "subsurface is an opaque base of subsurface_color");
-    add(m.coat > 0.0F, "coat sharpens the highlights instead of adding its own");
-    add(m.sheen > 0.0F, "sheen is left out");
+    add(m.coat > 0.0F && !drawn_by_rays(scene, mesh).mirrored,
+        "coat sharpens the highlights instead of adding its own");
     if (!what.empty()) remarks.push_back("look of '" + mesh.name + "': " + what);
   }
   const Material& ground = scene.ground.material;

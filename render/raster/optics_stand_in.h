@@ -14,9 +14,9 @@ namespace lagomorph::render::raster {
 float mean_chord(std::span<const Vec3> positions, std::span<const Triangle>);
 
 /// A clear inside is a diffuse base of what absorption leaves of white over `thickness` [m], or black where
-/// what is seen through it is drawn by rays; a cloudy one is
-/// a base of its colour, under the same dielectric; of roughness and coat_roughness the sharper one counts as
-/// far as there is coat; sheen is left out. The same material where it has none of these.
+/// what is seen through it is drawn by rays; a cloudy one is a base of its colour, under the same dielectric.
+/// Of roughness and coat_roughness the sharper one counts as far as there is coat, or where rays show what
+/// that mirrors the base is darker by it. The same material where it has none of these.
 Material optics_stand_in(const Material&, float thickness, ByRays);
 /// Which meshes are drawn so and how, a line each.
 std::vector<std::string> optics_remarks(const RenderScene&);

@@ -17,7 +17,7 @@ const char* color_definition(bool colors) { return colors ? "#define COLORS\n" :
 
 std::string LightFeatures::definitions() const {
   return std::string(sky_map ? "#define SKY_MAP\n" : "") + (sun_discs ? "#define SUN_DISCS\n" : "") +
-         "#define GROUND_TEXTURE " + std::to_string(ground_texture) + "\n";
+         (sheen ? "#define SHEEN\n" : "") + "#define GROUND_TEXTURE " + std::to_string(ground_texture) + "\n";
 }
 
 SeenPrograms::SeenPrograms(int multisample, bool colors, const LightFeatures& light_features)

@@ -11,6 +11,7 @@ struct LightFeatures {
   bool sky_map = false;      // the sky is a map
   bool sun_discs = false;    // suns are seen in the sky
   bool see_through = false;  // some bodies are not opaque; the shaders of light need not know
+  bool sheen = false;        // some meshes have it
   int ground_texture = 0;    // its number in ground_texture_names()
   bool operator==(const LightFeatures&) const = default;
 

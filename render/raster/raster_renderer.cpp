@@ -24,9 +24,11 @@
 #include "render/raster/ray_pass.h"
 #include "render/raster/ray_scene.h"
 #include "render/raster/shaders/shaders.h"
+#include "render/raster/sky_model.h"
 #include "render/raster/stand_ins.h"
 #include "render/raster/still_picture.h"
 #include "render/raster/supersampled.h"
+#include "render/raster/tables.h"
 #include "render/raster/targets.h"
 #include "render/raster/view_range.h"
 
@@ -35,6 +37,7 @@ namespace {
 
 using namespace raster;
 
+constexpr int sheen_table_size = 64;
 constexpr int most_peels = 256;  // surfaces that are not opaque, one behind the other
 
 void check(const RasterSettings& s) {
@@ -90,6 +93,7 @@ private:
     LightMaps maps;
     std::optional<StillPicture> still;
     Buffer frame, surfaces;
+    std::optional<Texture> sheen_table;  // used where a mesh has sheen
     VertexArray no_attributes;
     std::vector<MeshBuffers> meshes;
     std::optional<Targets> targets;
@@ -108,6 +112,7 @@ private:
   void check_mesh_number(int mesh) const;
   void make_programs();
   void upload_surfaces(const RenderScene&);
+  void upload_sheens(const RenderScene&, std::vector<SurfaceBlock>&);
   Mat4 upload_frame(const Camera&, const Camera& before);
   void show_ground(bool shown);
   void draw_full_screen() const;
@@ -160,8 +165,9 @@ private:
 SurfaceBlock surface_block(const Material& material, float thickness, ByRays by_rays) {
   const Material m = optics_stand_in(material, thickness, by_rays);
   const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
-  return {vec4(m.base_color, by_rays.mirrored ? -1.0F : 0.0F),
-          Vec4(m.roughness, m.metallic, r * r, m.opacity)};
+  const bool mirrors = !by_rays.mirrored || material.coat > 0.0F;  // the coat is another mirror
+  return {vec4(m.base_color, mirrors ? 0.0F : -1.0F), Vec4(m.roughness, m.metallic, r * r, m.opacity),
+          vec4(Color(m.sheen * m.sheen_tint), 0.5F)};
 }
 
 void RasterRenderer::set_scene(const RenderScene& scene) {
@@ -205,7 +211,10 @@ void RasterRenderer::make_programs() {
                                        [](const MeshBuffers& mesh) { return mesh.see_through(); });
   const std::vector<std::string> textures = ground_texture_names();
   const auto texture = std::find(textures.begin(), textures.end(), scene_.ground.texture) - textures.begin();
-  const LightFeatures features{scene_.sky.map != nullptr, sees_suns, see_through, static_cast<int>(texture)};
+  const bool sheen = std::any_of(gl_->meshes.begin(), gl_->meshes.end(),
+                                 [](const MeshBuffers& mesh) { return mesh.material().sheen > 0.0F; });
+  const LightFeatures features{scene_.sky.map != nullptr, sees_suns, see_through, sheen,
+                               static_cast<int>(texture)};
   if (!gl_->programs || !(features == gl_->features)) {
     gl_->features = features;
     gl_->programs.reset();
@@ -231,11 +240,24 @@ void RasterRenderer::upload_surfaces(const RenderScene& scene) {
         surface_block(mesh.material, mean_chord(mesh.positions, mesh.triangles), drawn_by_rays(scene, mesh)));
   }
   for (const AreaLight& light : scene_.lights)
-    surfaces.push_back({vec4(Color(light.radiance * light.color), 1.0F), Vec4::Zero()});
+    surfaces.push_back({vec4(Color(light.radiance * light.color), 1.0F), Vec4::Zero(), Vec4::Zero()});
+  if (gl_->features.sheen) upload_sheens(scene, surfaces);
   gl_->still->set_ground(surfaces.front());
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, gl_->surfaces.id());
   glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(surfaces.size() * sizeof(SurfaceBlock)),
                surfaces.data(), GL_STATIC_DRAW);
+}
+
+/// A row of their table each, which the meshes' surfaces, from the second on, are told.
+void RasterRenderer::upload_sheens(const RenderScene& scene, std::vector<SurfaceBlock>& surfaces) {
+  std::vector<float> roughnesses;
+  for (const Mesh& mesh : scene.meshes) roughnesses.push_back(mesh.material.sheen_roughness);
+  const auto rows = static_cast<int>(roughnesses.size());
+  for (int k = 0; k < rows; ++k)
+    surfaces[static_cast<std::size_t>(k) + 1].sheen.w() =
+        (static_cast<float>(k) + 0.5F) / static_cast<float>(rows);
+  gl_->sheen_table.emplace();
+  allocate_table(*gl_->sheen_table, sheen_table_size, rows, sheen_table(roughnesses, sheen_table_size));
 }
 
 void RasterRenderer::check_mesh_number(int mesh) const {
@@ -322,6 +344,10 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
   const Mat4 clip_before =
       upload_frame(camera, frame.camera_before != nullptr ? *frame.camera_before : camera);
   gl_->maps.bind_textures();
+  if (gl_->features.sheen) {
+    glActiveTexture(GL_TEXTURE3);
+    glBindTexture(GL_TEXTURE_2D, gl_->sheen_table->id());
+  }
   if (lights_are_stale_) gl_->maps.draw(gl_->meshes, positions_, block_);
   lights_are_stale_ = false;
 

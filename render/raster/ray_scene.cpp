@@ -21,6 +21,9 @@ constexpr float roughest_mirror = 0.35F;  // of the ground, that rays show
 
 float clear_part(const Material& m) { return (1.0F - m.metallic) * m.transmission; }
 
+/// The varnish alone.
+Material coat_of(const Material& m) { return {Color::Zero(), m.coat_roughness, 0.0F, 1.5F}; }
+
 float dielectric_f0(const Material& m) {
   const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
   return r * r;
@@ -88,8 +91,8 @@ ByRays drawn_by_rays(const RenderScene& scene, const Mesh& mesh) {
   const bool behind = clear_part(m) > 0.0F && mesh.colors.empty();
   const bool misses_none = std::all_of(scene.suns.begin(), scene.suns.end(),
                                        [](const Sun& sun) { return solid_angle(sun) > least_sun; });
-  const Material drawn = optics_stand_in(m, 1.0F, {});
-  const bool smooth = alpha_for_rays(drawn) <= rough_alpha && (m.metallic > 0.0F || m.ior > 1.0F);
+  const Material mirror = m.coat > 0.0F ? coat_of(m) : m;
+  const bool smooth = alpha_for_rays(mirror) <= rough_alpha && (mirror.metallic > 0.0F || mirror.ior > 1.0F);
   return {behind, smooth && misses_none && !(behind && m.coat > 0.0F)};
 }
 
@@ -120,18 +123,23 @@ RayScene::RayScene(const RenderScene& scene, std::span<const AreaLight> lights)
       ground_mirror_(scene.ground.material) {
   for (const Mesh& mesh : scene.meshes) {
     const Material& m = mesh.material;
-    const Material drawn = optics_stand_in(m, mean_chord(mesh.positions, mesh.triangles), {});
     Surface& surface = surfaces_.emplace_back();
     surface.by_rays = drawn_by_rays(scene, mesh);
-    surface.alpha = alpha_for_rays(surface.by_rays.behind ? m : drawn);
+    const float thickness = mean_chord(mesh.positions, mesh.triangles);
+    const Material drawn = optics_stand_in(m, thickness, {false, surface.by_rays.mirrored});
+    surface.alpha = alpha_for_rays(!surface.by_rays.behind && m.coat > 0.0F ? coat_of(m) : m);
     surface.base_color = drawn.base_color;
     surface.diffuse = drawn.base_color;
     if (surface.by_rays.any()) roughest_ = std::max(roughest_, surface.alpha);
     if (surface.by_rays.behind)
       surface.inside = {path::Absorption(m), std::max(m.ior, 1.001F), clear_part(m)};
     if (surface.by_rays.mirrored) {
-      surface.mirror.emplace(drawn);
-      surface.diffuse *= 1.0F - m.metallic;
+      if (m.coat > 0.0F) {
+        surface.mirror.emplace(coat_of(m), m.coat);
+      } else {
+        surface.mirror.emplace(drawn);
+        surface.diffuse *= 1.0F - m.metallic;
+      }
     }
   }
   for (const AreaLight& light : lights) {
@@ -141,7 +149,8 @@ RayScene::RayScene(const RenderScene& scene, std::span<const AreaLight> lights)
   }
 }
 
-RayScene::Mirror::Mirror(const Material& m) : metallic(m.metallic), f0(dielectric_f0(m)), coat{} {
+RayScene::Mirror::Mirror(const Material& m, float part)
+    : metallic(m.metallic), f0(dielectric_f0(m)), share(part), coat{} {
   for (int k = 0; k <= cosines; ++k) {
     const float cosine = std::max(static_cast<float>(k) / cosines, 1e-3F);
     coat[static_cast<std::size_t>(k)] = coat_albedo(cosine, m.roughness);
@@ -155,7 +164,7 @@ Color RayScene::Mirror::reflectance(float cosine, const Color& base_color) const
   const CoatAlbedo &a = coat[k], &b = coat[k + 1];
   const float scale = a.scale + t * (b.scale - a.scale), offset = a.offset + t * (b.offset - a.offset);
   const Color at_normal = (1.0F - metallic) * f0 + metallic * base_color;
-  return scale * at_normal + std::min(1.0F, 50.0F * at_normal.maxCoeff()) * offset;
+  return share * (scale * at_normal + std::min(1.0F, 50.0F * at_normal.maxCoeff()) * offset);
 }
 
 Color RayScene::mirrored_by_mesh(const path::MeshHit& hit, const path::TriangleHit& met, float cosine) const {

@@ -19,8 +19,8 @@ namespace lagomorph::render::raster {
 /// What of a mesh is drawn by rays: nothing where a mesh of the scene is see-through.
 struct ByRays {
   bool behind = false;    // what is seen through its clear inside, where it has no colours of its vertices
-  bool mirrored = false;  // where it is so smooth that few rays show that without noise, beside suns that
-                          // rays do not miss
+  bool mirrored = false;  // what its coat or, without one, its surface mirrors where that is so smooth that
+                          // few rays show that without noise, beside suns that rays do not miss
   bool any() const { return behind || mirrored; }
 };
 ByRays drawn_by_rays(const RenderScene&, const Mesh&);
@@ -54,13 +54,14 @@ public:
     float ior;
     float share;  // of the light that comes through the surface, which goes on inside
   };
-  /// A coat or a metal.
+  /// A dielectric or a metal.
   struct Mirror {
-    explicit Mirror(const Material&);
+    /// `part`: of what it mirrors.
+    explicit Mirror(const Material&, float part = 1.0F);
     /// What it reflects along a cosine, of what it mirrors.
     Color reflectance(float cosine, const Color& base_color) const;
 
-    float metallic, f0;
+    float metallic, f0, share;
     static constexpr int cosines = 64;
     std::array<CoatAlbedo, cosines + 1> coat;
   };

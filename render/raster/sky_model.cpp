@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/path/sheen.h"
+
 namespace lagomorph::render::raster {
 namespace {
 
@@ -58,6 +60,18 @@ std::vector<CoatTableEntry> coat_albedo_table(int entries) {
       table.push_back({a, {}});
     }
     for (std::size_t i = row; i < table.size(); ++i) table[i].mean = mean;
+  }
+  return table;
+}
+
+std::vector<SheenTableEntry> sheen_table(std::span<const float> roughnesses, int entries) {
+  std::vector<SheenTableEntry> table;
+  for (const float roughness : roughnesses) {
+    const path::Sheen sheen(roughness);
+    for (int k = 0; k < entries; ++k) {
+      const float cosine = static_cast<float>(k) / static_cast<float>(entries - 1);
+      table.push_back({sheen.albedo(cosine), sheen.power(), sheen.scale(), 0.0F});
+    }
   }
   return table;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "render/coat_albedo.h"
@@ -25,6 +26,13 @@ struct CoatTableEntry {
 };
 /// entries x entries, cos_view fastest, both at the middles of equal steps over [0, 1].
 std::vector<CoatTableEntry> coat_albedo_table(int entries);
+
+/// Of a sheen, see path::Sheen.
+struct SheenTableEntry {
+  float albedo, power, scale, unused;
+};
+/// A row of `entries` a roughness, at cosines 0 .. 1 in equal steps.
+std::vector<SheenTableEntry> sheen_table(std::span<const float> roughnesses, int entries);
 
 /// Directions that share the upper hemisphere evenly, each with two axes across and the sky's radiance.
 std::array<SkyDirectionBlock, most_sky_directions> sky_directions(const Sky&);

@@ -106,6 +106,19 @@ layout(binding = 5) uniform sampler2D coat_table;  // scale and offset of the co
 // the mean over the hemisphere.
 float into_base(Coat coat, vec2 albedo) { return 1.0 - dot(coat.dielectric, albedo); }
 
+#ifdef SHEEN
+layout(binding = 3) uniform sampler2D sheen_table;  // albedo, exponent and scale by cosine, a row a sheen
+
+// Fibres that stand up, see path/sheen.h [1/sr].
+float sheen_of(vec3 n, vec3 v, vec3 l, vec4 entry) {
+  float nl = dot(n, l), nv = max(dot(n, v), 1e-3);
+  if (nl <= 0.0) return 0.0;
+  float nh = dot(n, normalize(v + l));
+  float d = (2.0 + entry.y) * pow(max(1.0 - nh * nh, 1e-6), 0.5 * entry.y) / (2.0 * PI);
+  return entry.z * d / (4.0 * (nl + nv - nl * nv));
+}
+#endif
+
 struct Point {
   vec3 x;       // [m]
   vec3 normal;  // to shade with
@@ -201,8 +214,23 @@ vec3 sent_of_sky(Finish f, SkyLight sky, SkySeen seen) {
 // Radiance towards v of a surface under all lights and the sky, of which these parts are seen.
 vec3 shade(Point p, vec3 v, Surface surface, vec4 lights_seen, SkySeen seen, vec4 below) {
   Finish f = finish_of(surface, p.normal, v);
-  vec3 radiance = sent_of_sky(f, sky_light(f, p.normal, v, below), seen);
+  SkyLight sky = sky_light(f, p.normal, v, below);
+  vec3 radiance = sent_of_sky(f, sky, seen);
   int count = int(counts.x);
+#ifdef SHEEN
+  vec2 size = vec2(textureSize(sheen_table, 0));
+  vec4 entry = texture(sheen_table, vec2((0.5 + (size.x - 1.0) * f.nv) / size.x, surface.sheen.w));
+  vec3 sheen = surface.sheen.rgb;
+  float under = 1.0 - max(sheen.r, max(sheen.g, sheen.b)) * entry.x;
+  radiance = under * radiance + sheen * entry.x / PI * (sky.open * seen.diffuse + sky.from_below);
+  for (int i = 0; i < count; ++i) {
+    vec3 direction;
+    float irradiance = rectangle_irradiance(lights[i], p.x, p.normal, direction);
+    vec3 fuzz = sheen * sheen_of(p.normal, v, direction, entry) * irradiance * lights[i].radiance.rgb;
+    radiance += lights_seen[i] * (under * sent_of_light(i, f, p, v) + fuzz);
+  }
+  return radiance;
+#endif
   for (int i = 0; i < count; ++i) {
     radiance += lights_seen[i] * sent_of_light(i, f, p, v);
   }

@@ -69,7 +69,7 @@ TEST(RendererRemarks, SayWhatTheRasterizerDrawsInstead) {
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0],
             "raster: look of 'jelly': its shadow is as light as it is clear, without colours and "
-            "caustics; sheen is left out");
+            "caustics");
   settings.backend = "path";
   EXPECT_TRUE(renderer_remarks(settings, {}, scene).empty());
 }
