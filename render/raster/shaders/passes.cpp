@@ -346,7 +346,7 @@ void main() {
     sky.mirrored = sky.diffuse;
 #endif
   }
-  vec3 lit = shade(p, v, surface, lights_seen, sky, radiance_from_below(p.x));
+  vec3 lit = shade(p, v, surface, lights_seen, sky, radiance_from_below(p.x, p.normal));
 #ifdef PEEL
   color = vec4(weight_before * lit, weight_before);
   if (weight_behind > 0.0)

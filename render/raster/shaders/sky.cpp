@@ -80,7 +80,7 @@ vec4 radiance_below_ground(vec3 n) {
 
 // Mean radiance from below the horizon: the ground's, averaged over about the point's height above it, or beyond
 // it the horizon's. Of a map the ground's alone; w: part that it has, the map has the rest.
-vec4 radiance_from_below(vec3 x) {
+vec4 radiance_from_below(vec3 x, vec3 n) {
   float height = x.y - ground.x;
 #ifdef SKY_MAP
   if (ground.w < 0.5 || height < 0.0) return vec4(0.0);
@@ -88,7 +88,7 @@ vec4 radiance_from_below(vec3 x) {
   if (ground.w < 0.5 || height < 0.0) return vec4(horizon.rgb, 1.0);
 #endif
   float level = log2(max(0.75 * height / ground_map.y, 1.0));
-  vec3 bounce = textureLod(ground_bounce, ground_map_at(x), level).rgb;
+  vec3 bounce = textureLod(ground_bounce, ground_map_at(x + 1.0 * height * vec3(n.x, 0.0, n.z)), level).rgb;
   float reach = 0.5 * (ground.y + ground.z);
   float part = reach * reach / (reach * reach + height * height);
 #ifdef SKY_MAP
