@@ -7,6 +7,7 @@
 #include "sim/newton.h"
 #include "sim/solve_counts.h"
 #include "sim/system_solver.h"
+#include "sim/vertex_rotations.h"
 
 namespace lagomorph::sim {
 
@@ -38,7 +39,7 @@ public:
     const Held& held = model.held(state.t + 0.5 * h);
     hold(model, held.pins());
     if (solver_.needs_trial(h)) try_solvers(model, h);
-    solver_.begin(h);
+    solver_.begin(h, [&] { return vertex_rotations(model.mesh(), state.q); });
     const VecX load = model.load_force(state.t + h);
     const VecX b = assemble(model, state, load, h);
     if (!b.allFinite()) return {StepStatus::not_finite, 0, 0.0, h};

@@ -10,6 +10,7 @@
 #include "sim/profile.h"
 #include "sim/rigid_motion.h"
 #include "sim/text.h"
+#include "sim/vertex_rotations.h"
 
 namespace lagomorph::sim {
 
@@ -286,7 +287,7 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
   if (held != pins_) solver_.analyze(model.pattern(), *held);
   pins_ = held;
   if (solver_.needs_trial(phi.m)) try_solvers(model, phi);
-  solver_.begin(phi.m);
+  solver_.begin(phi.m, [&] { return vertex_rotations(model.mesh(), q); });
   has_fresh_hessian_ = false;
   NewtonReport report;
   const SolveCounts before = solver_.counts();

@@ -1,5 +1,7 @@
 #include "apps/run/solves_text.h"
 
+#include <string>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -8,13 +10,15 @@ namespace lagomorph::apps {
 std::string way_text(const sim::SolveCounts& solves) {
   std::string text;
   if (solves.cg_iterations > 0) text = "conjugate gradients";
-  if (solves.factorizations > 0)
-    text += text.empty() ? "Cholesky factorizations" : " and Cholesky factorizations";
+  const char* const factors = solves.factorizations > 0      ? "Cholesky factorizations"
+                              : solves.factor_iterations > 0 ? "a Cholesky factorization at rest"
+                                                             : "";
+  if (*factors != '\0') text += (text.empty() ? "" : " and ") + std::string(factors);
   return text;
 }
 
 std::string solves_text(const sim::SolveCounts& solves) {
-  if (solves.cg_iterations + solves.factorizations == 0) return "none";
+  if (solves.cg_iterations + solves.factorizations + solves.factor_iterations == 0) return "none";
   std::string text;
   if (solves.cg_iterations > 0)
     text = fmt::format("{} iterations of conjugate gradients, ", solves.cg_iterations);

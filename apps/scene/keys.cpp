@@ -90,7 +90,7 @@ void visit_solver(sim::SolverSettings& s, KeyVisitor& v) {
        .meaning =
            "how linear systems are solved. cg: conjugate gradients preconditioned by the diagonal's blocks; "
            "cholmod: a factor a step, which preconditions its further systems; auto: cg while that is less "
-           "work",
+           "work, else the like with a factor at rest, turned with the body, while strains are small",
        .choices = linear_choices},
       &s.linear);
   v.key({.name = "blas_threads",

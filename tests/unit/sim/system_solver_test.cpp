@@ -1,6 +1,10 @@
 #include "sim/system_solver.h"
 
+#include <cmath>
+#include <random>
+
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "tests/unit/sim/mesh_fixtures.h"
@@ -112,6 +116,54 @@ TEST(SystemSolver, ChoosesByTheWork) {
   EXPECT_GT(hard.cg_iterations, 0);  // it is tried,
   EXPECT_LT(hard.cg_iterations, 400);
   EXPECT_EQ(hard.factorizations, 1);  // and given up
+}
+
+/// R H Rᵀ, with a rotation a vertex.
+BlockHessian turned(const BlockHessian& H, const std::vector<Mat3>& R) {
+  BlockHessian to(H.shared_pattern());
+  const BlockPattern& pattern = H.pattern();
+  for (int j = 0; j < pattern.vertex_count(); ++j) {
+    for (int k = pattern.starts()[static_cast<std::size_t>(j)];
+         k < pattern.starts()[static_cast<std::size_t>(j) + 1]; ++k) {
+      const auto i = static_cast<std::size_t>(pattern.rows()[static_cast<std::size_t>(k)]);
+      to.block(k) = R[i] * H.block(k) * R[static_cast<std::size_t>(j)].transpose();
+    }
+  }
+  return to;
+}
+
+TEST(SystemSolver, TurnsTheFactorAtRestWithTheBody) {
+  const Cube cube(12);
+  // Springs of very different stiffness, on which conjugate gradients alone would be long.
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> exponent(-4.0, 4.0);
+  const BlockHessian at_rest =
+      coupled_system(cube.pattern, 1e-4, [&](Eigen::Map<Mat3> a, Eigen::Map<Mat3> both, Eigen::Map<Mat3> b) {
+        const Mat3 k = std::pow(10.0, exponent(random)) * Mat3::Identity();
+        a += k, b += k, both -= k;
+      });
+  VertexRotations rotations;
+  for (int v = 0; v < cube.mesh.vertex_count(); ++v)
+    rotations.R.emplace_back(Eigen::AngleAxisd(0.4 + 0.01 * v, Vec3(1, 2, 2).normalized()));
+  for (const int v : cube.pins.vertices()) rotations.R[static_cast<std::size_t>(v)] = Mat3::Identity();
+  const BlockHessian now = turned(at_rest, rotations.R);
+  const auto counts = [&](double strain) {
+    SystemSolver solver = cube.solver("auto");
+    // So stiff that it is left to a factor.
+    solver.try_at_rest(1.0, at_rest, VecX::Ones(cube.b.size()));
+    rotations.strain = strain;
+    solver.begin(1.0, [&] { return rotations; });
+    VecX x;
+    EXPECT_EQ(solver.solve(now, cube.b, 1e-8, 1e-8, x), FactorStatus::ok);
+    EXPECT_LE(residual_of(now, cube.pins, cube.b, x), 1.01e-8);
+    return solver.counts();
+  };
+  const SolveCounts small = counts(0.001), large = counts(0.1);
+  EXPECT_EQ(small.cg_iterations, 0);
+  EXPECT_EQ(small.factorizations, 0);
+  EXPECT_EQ(small.factor_iterations, 1);  // it is the very factor
+  EXPECT_EQ(large.factorizations, 1);
+  EXPECT_EQ(large.factor_iterations, 0);
 }
 
 TEST(SystemSolver, HasNothingToSolveWhenAllIsPinned) {
