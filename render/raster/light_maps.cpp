@@ -140,7 +140,7 @@ void LightMaps::set_scene(const RenderScene& scene, std::span<const Mesh> meshes
     b.up = vec4(frame.up, 0.5F * light.size.y());
     const std::size_t first_sun = scene.lights.size() - scene.suns.size();
     b.normal = vec4(frame.normal, i < first_sun ? 0.0F : solid_angle(scene.suns[i - first_sun]));
-    if (i < first_sun) splits_[i] = split_of(light, meshes, scene.ground);
+    splits_[i] = i < first_sun ? split_of(light, meshes, scene.ground) : split_of_sun(b.normal.w());
     const bool disc = features.sun_discs && i >= first_sun && scene.suns[i - first_sun].visible;
     b.radiance = vec4(Color(light.color * light.radiance), disc ? 1.0F : 0.0F);
   }
