@@ -176,7 +176,7 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
     gl_->still.emplace(gl_->features, lights);
   }
   upload_surfaces(scene);
-  gl_->maps.set_scene(scene_, scene.meshes, gl_->features, block_);
+  gl_->maps.set_scene(scene, scene_, gl_->features, block_);
   lights_are_stale_ = true;
   check_gl("taking the scene");
 }
