@@ -142,7 +142,7 @@ void soft_shadow(const FrameBlock& frame, const DepthMaps& maps, int light, cons
                  std::vector<float>& seen) {
   const LightParts& parts = maps.lights[static_cast<std::size_t>(light)];
   if (parts.count == 1 && !parts.below_ground) {
-    shadow_of_part(maps, parts.first, at, 1.0F, seen);
+    shadow_of_part(maps, parts.first, at, static_cast<float>(at.step), seen);
     return;
   }
   std::vector<std::vector<float>> of_parts(parts.count);

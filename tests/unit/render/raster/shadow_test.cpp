@@ -81,6 +81,26 @@ TEST(RasterShadow, ALightOfSizeHasItsPenumbra) {
   }
 }
 
+/// Where the shadow is full, along the beginnings of its penumbra.
+TEST(RasterShadow, TheUmbraHasNoSpecksOfLight) {
+  const RenderScene scene = square_over_ground(0.3F);  // as one map sees it
+  CameraSettings camera;
+  camera.position = Vec3(0.4F, 1.1F, 4.0F);
+  camera.look_at = Vec3(0.0F, 0.0F, 0.45F);
+  camera.fov = 25.0F;
+  RenderSettings settings = small_settings(960, 480);
+  settings.raster.shadow_map = 1024;
+  const Image image = draw(scene, camera, settings);
+  const Camera view(camera, settings.width, settings.height);
+  float most = 0.0F, open = 0.0F;
+  for (float x = -0.6F; x < 0.6F; x += 0.002F) {
+    for (const float z : {0.56F, 0.57F, 0.58F, 0.59F, 0.6F, 0.605F})
+      most = std::max(most, color_of(image, view, Vec3(x, 0.0F, z))[0]);
+    open = std::max(open, color_of(image, view, Vec3(x, 0.0F, 0.9F))[0]);
+  }
+  EXPECT_LT(most / open, 0.025F);  // 0.099 where cells blur them
+}
+
 TEST(RasterShadow, StandsAtTheFootOfABody) {
   RenderScene scene = square_over_ground(0.05F);
   scene.meshes = {box(Vec3(-0.5F, 0.0F, -0.5F), Vec3(0.5F, 1.0F, 0.5F))};
