@@ -91,9 +91,9 @@ private:
   /// Cells whose parts differ by more than this from their neighbours' are lit pixel by pixel: those of
   /// shadows whose edges are narrower than some ten cells.
   static constexpr float most_difference = 0.1F;
-  /// Of the lights' parts alone: from here on cells beside such are as well, for a shadow's edge begins
-  /// there.
-  static constexpr float slope = 0.01F;
+  /// Cells beside such ones are as well from this difference on, where a light is dark: specks in a shadow
+  /// would be seen.
+  static constexpr float slope = 0.01F, dark = 0.05F;
   /// Cosine of the angle from which on two normals are of different surfaces.
   static constexpr float least_alike = 0.9F;
   static constexpr float nowhere = 1e9F;
@@ -117,8 +117,9 @@ private:
       const Parts& b = parts_[other];
       float difference = 0.0F, of_lights = 0.0F;
       for (std::size_t k = 0; k < N; ++k) {
-        difference = std::max(difference, std::abs(a[k] - b[k]));
-        if (k + 1 == std::min<std::size_t>(N, most_lights)) of_lights = difference;
+        const float of_part = std::abs(a[k] - b[k]);
+        difference = std::max(difference, of_part);
+        if (k < most_lights && std::min(a[k], b[k]) < dark) of_lights = std::max(of_lights, of_part);
         least_seen = std::min(least_seen, b[k]);
       }
       if (surfaces_[other].depth >= nowhere) continue;

@@ -212,7 +212,7 @@ void LightMaps::put_parts(std::size_t i, const LightView& whole, const LightFram
   depths_.lights.push_back({depths_.parts.size(), count, split.below_ground});
   if (count == 1) {
     views_.push_back(whole);
-    depths_.parts.push_back({light, whole.size, search, filter});
+    depths_.parts.push_back({light, whole.size, search, filter, true});
     return;
   }
   // The more there are, the less it takes for all of their texels together to show the same.
@@ -227,7 +227,7 @@ void LightMaps::put_parts(std::size_t i, const LightView& whole, const LightFram
     part.map = view.map;
     part.depth = view.depth;
     views_.push_back(view);
-    depths_.parts.push_back({part, size, search, filter});
+    depths_.parts.push_back({part, size, search, filter, false});
   }
 }
 

@@ -92,7 +92,7 @@ void shadow_of_part(const DepthMaps& maps, std::size_t part, const ReceiverBlock
   bool any_blocked = false;
   at.for_each([&](int x, int y, const Receivers& r) {
     Blockers found;
-    find_blockers(maps, part, r, found);
+    find_blockers(maps, part, r, spacing, found);
     Lanes reach;
     std::transform(r.footprint.begin(), r.footprint.end(), reach.begin(), [](float f) { return 10.0F * f; });
     depth.put(x, y, found.depth);
