@@ -200,6 +200,9 @@ constexpr float widest_search = 0.25F;
 // Over so many texels the dots of what is seen through even out.
 template <bool see_through>
 constexpr float least_reach = see_through ? 4.0F : 1.0F;
+// A light's only shadow on a plane: so that an edge aslant to the texels shows no steps.
+template <bool see_through>
+constexpr float least_reach_of_edges = see_through ? 4.0F : 1.5F;
 
 /// Of the ground, by the differences in each quad of receivers `spacing` pixels apart.
 LAGOMORPH_INLINE void cover_pixels(const LightTaps& t, const Receivers& at, float spacing, Footprint& pixel) {
@@ -242,7 +245,9 @@ LAGOMORPH_INLINE void look_from_light(const DepthMaps& maps, Index part, const R
   t.reciprocal_scale = light.depth[0] / no_depth, t.reciprocal_offset = light.depth[1];
   const float half_x = light.right[3], half_y = light.up[3];
   t.half_x = half_x, t.half_y = half_y;
-  t.least_x = least_reach<see_through> * t.tangent_x, t.least_y = least_reach<see_through> * t.tangent_y;
+  const float texels =
+      at.is_ground && maps.parts[part].alone ? least_reach_of_edges<see_through> : least_reach<see_through>;
+  t.least_x = texels * t.tangent_x, t.least_y = texels * t.tangent_y;
   t.closest = std::max(t.least_x / half_x, t.least_y / half_y);
   for (Index l = 0; l < all; ++l) {
     const float px = at.point.x[l] - light.position[0];
