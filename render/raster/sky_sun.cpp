@@ -16,7 +16,7 @@ using Color3d = Eigen::Array3d;
 
 constexpr double least_share = 0.05;                // of the light from above the horizon
 constexpr double widest_radius = 9.0 * pi / 180.0;  // of the patch
-constexpr double edge = 0.05;           // of the brightest texel's luminance: what is connected to that
+constexpr double least_of_peak = 0.05;  // of the brightest texel's luminance: what is connected to that
 constexpr double least_contrast = 5.0;  // of the patch's mean luminance to what surrounds it
 // Of the patch's mean squared radius to that of a disc of its area: 1.05 for a square, 1.75 for one by three.
 constexpr double most_stretch = 1.5;
@@ -97,7 +97,7 @@ struct Disc {
 std::optional<Disc> disc_around(const Texels& texels, const Peak& peak) {
   const int width = texels.width(), height = texels.height();
   const Vec3d top = texels.direction(peak.x, peak.y);
-  const double least = edge * peak.luminance, within = std::cos(2.0 * widest_radius);
+  const double least = least_of_peak * peak.luminance, within = std::cos(2.0 * widest_radius);
   std::vector<bool> seen(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), false);
   std::vector<std::pair<int, int>> found;
   bool goes_on = false;
