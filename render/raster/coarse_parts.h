@@ -47,6 +47,11 @@ public:
         for (int x = x0; x < std::min(x0 + block_width, width_ - 1); ++x) kinds_[index(x, y)] = kind(x, y);
       }
     });
+    for (int y = 0; y < height_; ++y) {
+      for (int x = 0; x < width_; ++x) {
+        if (kinds_[index(x, y)] == Kind::sloped && is_beside_rough(x, y)) kinds_[index(x, y)] = Kind::edge;
+      }
+    }
   }
 
   /// Whether pixel (x, y), see find(), and what is around it see all of everything.
@@ -57,7 +62,7 @@ public:
   bool find(int x, int y, float depth, const Vec3& normal, float reach, Parts& seen) const {
     const int cx = x / step_, cy = y / step_;
     const std::size_t cell = index(cx, cy);
-    if (kinds_[cell] == Kind::rough) return false;
+    if (kinds_[cell] == Kind::rough || kinds_[cell] == Kind::edge) return false;
     if (kinds_[cell] == Kind::open) {
       seen.fill(1.0F);
       return true;
@@ -86,6 +91,9 @@ private:
   /// Cells whose parts differ by more than this from their neighbours' are lit pixel by pixel: those of
   /// shadows whose edges are narrower than some ten cells.
   static constexpr float most_difference = 0.1F;
+  /// Cells beside such ones are as well from this difference on, where a light is dark: specks in a shadow
+  /// would be seen.
+  static constexpr float slope = 0.01F, dark = 0.05F;
   /// Cosine of the angle from which on two normals are of different surfaces.
   static constexpr float least_alike = 0.9F;
   static constexpr float nowhere = 1e9F;
@@ -94,8 +102,9 @@ private:
     Vec3 normal;
     float depth;  // [m]
   };
-  /// With its neighbours to the right and above: all of everything is seen, or not.
-  enum class Kind : char { open, smooth, rough };
+  /// With its neighbours to the right and above: all of everything is seen, or not. Of the sloped ones the
+  /// edges are beside rough ones.
+  enum class Kind : char { open, smooth, sloped, rough, edge };
 
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
@@ -103,18 +112,32 @@ private:
 
   Kind kind(int x, int y) const {
     const Parts& a = parts_[index(x, y)];
-    float most = 0.0F, least_seen = 1.0F;
+    float most = 0.0F, most_of_lights = 0.0F, least_seen = 1.0F;
     for (const std::size_t other : {index(x, y), index(x + 1, y), index(x, y + 1), index(x + 1, y + 1)}) {
       const Parts& b = parts_[other];
-      float difference = 0.0F;
+      float difference = 0.0F, of_lights = 0.0F;
       for (std::size_t k = 0; k < N; ++k) {
-        difference = std::max(difference, std::abs(a[k] - b[k]));
+        const float of_part = std::abs(a[k] - b[k]);
+        difference = std::max(difference, of_part);
+        if (k < most_lights && std::min(a[k], b[k]) < dark) of_lights = std::max(of_lights, of_part);
         least_seen = std::min(least_seen, b[k]);
       }
-      if (surfaces_[other].depth < nowhere) most = std::max(most, difference);
+      if (surfaces_[other].depth >= nowhere) continue;
+      most = std::max(most, difference);
+      most_of_lights = std::max(most_of_lights, of_lights);
     }
     if (most > most_difference) return Kind::rough;
+    if (most_of_lights > slope) return Kind::sloped;
     return least_seen < 1.0F ? Kind::smooth : Kind::open;
+  }
+
+  bool is_beside_rough(int x, int y) const {
+    for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height_ - 1); ++j) {
+      for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width_ - 1); ++i) {
+        if (kinds_[index(i, j)] == Kind::rough) return true;
+      }
+    }
+    return false;
   }
 
   int step_, width_, height_;

@@ -22,6 +22,7 @@ struct LightPart {
   LightBlock light;
   int map_size;                  // [texels]
   int search_taps, filter_taps;  // of each of a quad's pixels
+  bool alone = true;             // the whole light: its shadow's edges may be narrower than a pixel
 };
 
 /// Of a light, among those of all.

@@ -87,9 +87,8 @@ LightMaps::LightMaps(const RasterSettings& settings)
   check_framebuffer("ground map");
 }
 
-/// The light of the scene's map, and the map itself where the camera may see it.
-void LightMaps::set_sky_map(const RenderScene& scene, FrameBlock& block) {
-  const SkyMap& map = *scene.sky.map;
+/// The light of the scene's map, and what is seen itself where the camera may see it.
+void LightMaps::set_sky_map(const RenderScene& scene, const SkyMap& seen, FrameBlock& block) {
   const SkyLight light = sky_light(scene.sky);
   block.sky = light.directions;
   sky_textures_.emplace();
@@ -98,13 +97,13 @@ void LightMaps::set_sky_map(const RenderScene& scene, FrameBlock& block) {
   allocate_cubes(sky_textures_->lobes_above, light.lobes_above);
   allocate_cubes(sky_textures_->lobes_below, light.lobes_below);
   glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
-  block.sky_picture = Vec4(map.turn(), 0.0F, scene.sky.strength, 0.0F);
-  if (!scene.background) allocate_picture(sky_textures_->picture, reduced(map, widest_sky_picture));
+  block.sky_picture = Vec4(seen.turn(), 0.0F, scene.sky.strength, 0.0F);
+  if (!scene.background) allocate_picture(sky_textures_->picture, reduced(seen, widest_sky_picture));
   check_gl("the sky's map");
 }
 
-void LightMaps::set_scene(const RenderScene& scene, std::span<const Mesh> meshes,
-                          const LightFeatures& features, FrameBlock& block) {
+void LightMaps::set_scene(const RenderScene& given, const RenderScene& scene, const LightFeatures& features,
+                          FrameBlock& block) {
   if (!ground_program_ || !(features == features_)) {
     features_ = features;
     using Parts = Program::Parts;
@@ -123,12 +122,12 @@ void LightMaps::set_scene(const RenderScene& scene, std::span<const Mesh> meshes
     b.up = vec4(frame.up, 0.5F * light.size.y());
     const std::size_t first_sun = scene.lights.size() - scene.suns.size();
     b.normal = vec4(frame.normal, i < first_sun ? 0.0F : solid_angle(scene.suns[i - first_sun]));
-    if (i < first_sun) splits_[i] = split_of(light, meshes, scene.ground);
+    splits_[i] = i < first_sun ? split_of(light, given.meshes, scene.ground) : split_of_sun(b.normal.w());
     const bool disc = features.sun_discs && i >= first_sun && scene.suns[i - first_sun].visible;
     b.radiance = vec4(Color(light.color * light.radiance), disc ? 1.0F : 0.0F);
   }
   if (scene.sky.map) {
-    set_sky_map(scene, block);
+    set_sky_map(scene, *given.sky.map, block);
   } else {
     sky_textures_.reset();
     block.sky = sky_directions(scene.sky);
@@ -196,7 +195,7 @@ void LightMaps::put_parts(std::size_t i, const LightView& whole, const LightFram
   depths_.lights.push_back({depths_.parts.size(), count, split.below_ground});
   if (count == 1) {
     views_.push_back(whole);
-    depths_.parts.push_back({light, whole.size, search, filter});
+    depths_.parts.push_back({light, whole.size, search, filter, true});
     return;
   }
   // The more there are, the less it takes for all of their texels together to show the same.
@@ -211,7 +210,7 @@ void LightMaps::put_parts(std::size_t i, const LightView& whole, const LightFram
     part.map = view.map;
     part.depth = view.depth;
     views_.push_back(view);
-    depths_.parts.push_back({part, size, search, filter});
+    depths_.parts.push_back({part, size, search, filter, false});
   }
 }
 

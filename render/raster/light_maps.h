@@ -26,9 +26,9 @@ class LightMaps {
 public:
   explicit LightMaps(const RasterSettings&);
 
-  /// Lights, sky and ground of the scene (with_stand_ins()) into the frame's block, for shaders with these
-  /// features; with the scene's meshes.
-  void set_scene(const RenderScene&, std::span<const Mesh>, const LightFeatures&, FrameBlock&);
+  /// Lights, sky and ground of a scene into the frame's block, for shaders with these features: of what is
+  /// drawn in its place (with_stand_ins()), but for its meshes and the map of the sky that the camera sees.
+  void set_scene(const RenderScene&, const RenderScene& drawn, const LightFeatures&, FrameBlock&);
   /// Whether the ground is drawn; what is fitted is to be drawn again.
   void show_ground(bool shown, FrameBlock&);
   /// Fits the maps to new positions and says so in the frame's block.
@@ -49,7 +49,7 @@ public:
   void bind_textures() const;
 
 private:
-  void set_sky_map(const RenderScene&, FrameBlock&);
+  void set_sky_map(const RenderScene& drawn, const SkyMap& seen, FrameBlock&);
   void put_parts(std::size_t light, const LightView& whole, const LightFrame&,
                  std::span<const std::vector<Vec3>> positions, const LightBlock&);
   void fill_bounce_levels();

@@ -10,7 +10,9 @@ namespace lagomorph::render::raster {
 namespace {
 
 constexpr float widest_part = 0.15F;  // of the distance from the nearest mesh
-constexpr int most_parts = 6;         // along a side
+// Of a sun's distance from all: the shadows of any body may fall on any other, however far behind.
+constexpr float widest_part_of_suns = 0.06F;
+constexpr int most_parts = 6;  // along a side
 
 /// From the light's middle to the nearest triangle's box of those that the light shines on; infinite if none.
 float nearest_mesh(const AreaLight& light, std::span<const Mesh> meshes) {
@@ -31,21 +33,28 @@ float nearest_mesh(const AreaLight& light, std::span<const Mesh> meshes) {
   return std::sqrt(nearest);
 }
 
+/// Along a side of so much, no part wider than `widest`.
+int parts_along(float side, float widest) {
+  return static_cast<int>(std::clamp(std::ceil(side / widest), 1.0F, static_cast<float>(most_parts)));
+}
+
 }  // namespace
 
 LightSplit split_of(const AreaLight& light, std::span<const Mesh> meshes, const Ground& ground) {
-  const float nearest = std::max(nearest_mesh(light, meshes), 1e-6F);
-  const auto parts = [nearest](float size) {
-    const float count = std::ceil(size / (widest_part * nearest));
-    return static_cast<int>(std::clamp(count, 1.0F, static_cast<float>(most_parts)));
-  };
+  const float widest = widest_part * std::max(nearest_mesh(light, meshes), 1e-6F);
   LightSplit split;
-  split.across = parts(light.size.x());
-  split.up = parts(light.size.y());
+  split.across = parts_along(light.size.x(), widest);
+  split.up = parts_along(light.size.y(), widest);
   const LightFrame frame = light_frame(light);
   const float reach =
       0.5F * (std::abs(frame.right.y()) * light.size.x() + std::abs(frame.up.y()) * light.size.y());
   split.below_ground = ground.enabled && light.position.y() - reach < ground.height;
+  return split;
+}
+
+LightSplit split_of_sun(float solid_angle) {
+  LightSplit split;
+  split.across = split.up = parts_along(std::sqrt(solid_angle), widest_part_of_suns);
   return split;
 }
 

@@ -19,6 +19,9 @@ struct LightSplit {
 /// Decided by where the meshes are when the scene is given, not by how they move: a change of it would show.
 LightSplit split_of(const AreaLight&, std::span<const Mesh>, const Ground&);
 
+/// Of the far square that stands for a sun: as far from all meshes, however they move.
+LightSplit split_of_sun(float solid_angle);
+
 /// Rectangle k of a light, row by row.
 LightBlock part_of(const LightBlock& light, const LightSplit&, int k);
 

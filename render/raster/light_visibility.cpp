@@ -50,6 +50,26 @@ const Lattice& lattice(int taps) {
   return lattices[static_cast<Index>(taps - 1)];
 }
 
+/// Of a pixel, on [-1, 1]^2, as many points as taps: of all pixels the same, so that edges are smooth
+/// [Roberts 2018].
+const std::array<Vec2, most_taps>& pixel_points() {
+  static const std::array<Vec2, most_taps> points = [] {
+    std::array<Vec2, most_taps> made;
+    for (int k = 0; k < most_taps; ++k) {
+      const double x = 0.5 + 0.7548776662466927 * k, y = 0.5 + 0.5698402909980532 * k;
+      made[static_cast<Index>(k)] = Vec2(static_cast<float>(2.0 * (x - std::floor(x)) - 1.0),
+                                         static_cast<float>(2.0 * (y - std::floor(y)) - 1.0));
+    }
+    return made;
+  }();
+  return points;
+}
+
+/// What a pixel covers in the light's view, as tangents: half its width and half its height.
+struct alignas(64) Footprint {
+  Lanes width_x, width_y, height_x, height_y;
+};
+
 /// The light's map as the taps read it, and the receivers in the light's frame.
 struct alignas(64) LightTaps {
   const DepthMap::value_type* map;
@@ -71,11 +91,12 @@ struct alignas(64) LightTaps {
 /// the sum of 1 / distance over that, else how much could; nothing where it is not wanted. What is seen at a
 /// tap counts only where the receiver sees it before the light, or not further beside it than `slack` times
 /// the light's size. A search counts what is nearer to the receiver more, which hides more of the light; else
-/// a point of the light counts by its height above the surface, as its light does.
-template <bool see_through, bool search>
+/// a point of the light counts by its height above the surface, as its light does. `covers`: each tap is of
+/// another point of the pixel.
+template <bool see_through, bool search, bool covers = false>
 LAGOMORPH_INLINE void add_taps(const LightTaps& t, const Lattice& points, int taps, const Lanes& reach_x,
                                const Lanes& reach_y, float slack, const std::array<int, lanes>& wanted,
-                               Lanes& sum, Lanes& count) {
+                               Lanes& sum, Lanes& count, const Footprint* pixel = nullptr) {
   alignas(64) Lanes s{}, c{};
   alignas(64) BatchIndices at;
   alignas(64) std::array<std::int32_t, batch * lanes> texel_x, texel_y;
@@ -92,8 +113,15 @@ LAGOMORPH_INLINE void add_taps(const LightTaps& t, const Lattice& points, int ta
       const Index base = static_cast<Index>(row) * all;
       for (Index l = 0; l < all; ++l) {
         const float shift = see_through ? 0.5F : 0.0F;
-        const float u = (t.tangent_at_x[l] + p.x[l] * reach_x[l]) * t.scale_x + t.offset_x - shift;
-        const float v = (t.tangent_at_y[l] + p.y[l] * reach_y[l]) * t.scale_y + t.offset_y - shift;
+        float tangent_x = t.tangent_at_x[l] + p.x[l] * reach_x[l];
+        float tangent_y = t.tangent_at_y[l] + p.y[l] * reach_y[l];
+        if constexpr (covers) {
+          const Vec2& q = pixel_points()[static_cast<Index>(see_through ? first : first + row)];
+          tangent_x += q[0] * pixel->width_x[l] + q[1] * pixel->height_x[l];
+          tangent_y += q[0] * pixel->width_y[l] + q[1] * pixel->height_y[l];
+        }
+        const float u = tangent_x * t.scale_x + t.offset_x - shift;
+        const float v = tangent_y * t.scale_y + t.offset_y - shift;
         auto x = static_cast<std::int32_t>(std::min(std::max(u, 0.0F), limit));
         auto y = static_cast<std::int32_t>(std::min(std::max(v, 0.0F), limit));
         if constexpr (see_through) {
@@ -172,6 +200,35 @@ constexpr float widest_search = 0.25F;
 // Over so many texels the dots of what is seen through even out.
 template <bool see_through>
 constexpr float least_reach = see_through ? 4.0F : 1.0F;
+// A light's only shadow on a plane: so that an edge aslant to the texels shows no steps.
+template <bool see_through>
+constexpr float least_reach_of_edges = see_through ? 4.0F : 1.5F;
+
+/// Of the ground, by the differences in each quad of receivers `spacing` pixels apart.
+LAGOMORPH_INLINE void cover_pixels(const LightTaps& t, const Receivers& at, float spacing, Footprint& pixel) {
+  const float half = 0.5F / spacing;
+  for (Index q = 0; q < all; q += 4) {
+    const bool whole =
+        both(both(at.there[q] != 0, at.there[q + 1] != 0), both(at.there[q + 2] != 0, at.there[q + 3] != 0));
+    const float scale = whole ? half : 0.0F;
+    for (Index l = q; l < q + 4; ++l) {
+      const Index left = l & ~Index{1}, lower = l & ~Index{2};
+      pixel.width_x[l] = scale * (t.tangent_at_x[left + 1] - t.tangent_at_x[left]);
+      pixel.width_y[l] = scale * (t.tangent_at_y[left + 1] - t.tangent_at_y[left]);
+      pixel.height_x[l] = scale * (t.tangent_at_x[lower + 2] - t.tangent_at_x[lower]);
+      pixel.height_y[l] = scale * (t.tangent_at_y[lower + 2] - t.tangent_at_y[lower]);
+    }
+  }
+}
+
+/// Less beside a filter's reach is not worth the while.
+constexpr float least_cover = 0.25F;
+
+/// Half of what the pixel covers along the axes, within some texels, where it is worth the while; else 0.
+LAGOMORPH_INLINE float covered(float width, float height, float least, float reach) {
+  const float half = std::min(std::abs(width) + std::abs(height), 64.0F * least);
+  return half > least_cover * reach ? half : 0.0F;
+}
 
 template <bool see_through>
 LAGOMORPH_INLINE void look_from_light(const DepthMaps& maps, Index part, const Receivers& at,
@@ -188,7 +245,9 @@ LAGOMORPH_INLINE void look_from_light(const DepthMaps& maps, Index part, const R
   t.reciprocal_scale = light.depth[0] / no_depth, t.reciprocal_offset = light.depth[1];
   const float half_x = light.right[3], half_y = light.up[3];
   t.half_x = half_x, t.half_y = half_y;
-  t.least_x = least_reach<see_through> * t.tangent_x, t.least_y = least_reach<see_through> * t.tangent_y;
+  const float texels =
+      at.is_ground && maps.parts[part].alone ? least_reach_of_edges<see_through> : least_reach<see_through>;
+  t.least_x = texels * t.tangent_x, t.least_y = texels * t.tangent_y;
   t.closest = std::max(t.least_x / half_x, t.least_y / half_y);
   for (Index l = 0; l < all; ++l) {
     const float px = at.point.x[l] - light.position[0];
@@ -229,9 +288,19 @@ LAGOMORPH_INLINE void look_from_light(const DepthMaps& maps, Index part, const R
 }
 
 template <bool see_through>
-LAGOMORPH_INLINE void blockers_of(const DepthMaps& maps, Index part, const Receivers& at, Blockers& found) {
+LAGOMORPH_INLINE void blockers_of(const DepthMaps& maps, Index part, const Receivers& at, float spacing,
+                                  Blockers& found) {
   Search search;
   look_from_light<see_through>(maps, part, at, search);
+  if (at.is_ground && maps.parts[part].alone) {
+    Footprint pixel;
+    cover_pixels(search.taps, at, spacing, pixel);
+    const LightTaps& t = search.taps;
+    for (Index l = 0; l < all; ++l) {
+      search.reach_x[l] += covered(pixel.width_x[l], pixel.height_x[l], t.least_x, search.reach_x[l]);
+      search.reach_y[l] += covered(pixel.width_y[l], pixel.height_y[l], t.least_y, search.reach_y[l]);
+    }
+  }
   alignas(64) std::array<int, lanes> wanted;
   for (Index l = 0; l < all; ++l) {
     found.depth[l] = search.lit[l] != 0 ? at.depth[l] : -1e9F;
@@ -267,8 +336,29 @@ LAGOMORPH_INLINE void shadow_of(const DepthMaps& maps, Index part, const Receive
         std::min(spread_x[l], spread_y[l]) * search.distance[l] / (spacing * at.footprint[l]);
     shadow.share[l] = std::min(std::max(0.5F * pixels - 0.5F, 0.0F), 1.0F);
   }
-  add_taps<see_through, false>(t, lattice(taps), taps, spread_x, spread_y, slack_of(at).filter, wanted, total,
-                               blocked);
+  Footprint pixel;
+  alignas(64) std::array<int, lanes> covers{};
+  if (at.is_ground && maps.parts[part].alone) {
+    cover_pixels(t, at, spacing, pixel);
+    for (Index l = 0; l < all; ++l) {
+      // What is seen aslant is farther from its neighbours than its footprint says.
+      const float width = std::abs(pixel.width_x[l]) + std::abs(pixel.height_x[l]);
+      const float height = std::abs(pixel.width_y[l]) + std::abs(pixel.height_y[l]);
+      const float pixels =
+          std::min(spread_x[l] / std::max(width, 1e-12F), spread_y[l] / std::max(height, 1e-12F));
+      shadow.share[l] = std::min(shadow.share[l], std::max(0.5F * pixels / spacing - 0.25F, 0.0F));
+      covers[l] =
+          static_cast<int>(covered(pixel.width_x[l], pixel.height_x[l], t.least_x, spread_x[l]) > 0.0F ||
+                           covered(pixel.width_y[l], pixel.height_y[l], t.least_y, spread_y[l]) > 0.0F);
+    }
+  }
+  if (any(covers)) {
+    add_taps<see_through, false, true>(t, lattice(taps), taps, spread_x, spread_y, slack_of(at).filter,
+                                       wanted, total, blocked, &pixel);
+  } else {
+    add_taps<see_through, false>(t, lattice(taps), taps, spread_x, spread_y, slack_of(at).filter, wanted,
+                                 total, blocked);
+  }
   for (Index l = 0; l < all; ++l) shadow.blocked[l] = blocked[l] / std::max(total[l], 1e-12F);
 }
 
@@ -323,8 +413,9 @@ LAGOMORPH_RENDER_SIMD void light_of_part(const FrameBlock& frame, const LightBlo
 }
 
 LAGOMORPH_RENDER_SIMD void find_blockers(const DepthMaps& maps, Index part, const Receivers& at,
-                                         Blockers& found) {
-  maps.see_through ? blockers_of<true>(maps, part, at, found) : blockers_of<false>(maps, part, at, found);
+                                         float spacing, Blockers& found) {
+  maps.see_through ? blockers_of<true>(maps, part, at, spacing, found)
+                   : blockers_of<false>(maps, part, at, spacing, found);
 }
 
 LAGOMORPH_RENDER_SIMD void filter_shadow(const DepthMaps& maps, Index part, const Receivers& at,

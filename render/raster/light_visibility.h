@@ -23,10 +23,10 @@ struct alignas(64) Blockers {
   Lanes taps;      // sum of their weights
   Lanes depth;     // the receiver's along the view axis [m]; of one that is not lit unlike any other
 };
-void find_blockers(const DepthMaps&, std::size_t part, const Receivers&, Blockers&);
+/// `spacing`: of the receivers [pixels].
+void find_blockers(const DepthMaps&, std::size_t part, const Receivers&, float spacing, Blockers&);
 
-/// Over the taps of the filter, which is as wide as what was found says. `spacing`: of the receivers
-/// [pixels].
+/// Over the taps of the filter, which is as wide as what was found says, and of the ground over the pixel.
 struct alignas(64) Shadow {
   Lanes blocked;  // part of them
   Lanes share;    // in [0, 1], of neighbours: none where the penumbra is hardly wider than a pixel

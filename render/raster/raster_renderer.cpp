@@ -190,7 +190,7 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
   if (mirrors_by_rays(scene.ground) ||
       std::any_of(scene.meshes.begin(), scene.meshes.end(),
                   [&](const Mesh& mesh) { return drawn_by_rays(scene, mesh).any(); }))
-    gl_->rays.emplace(scene, scene_.lights);
+    gl_->rays.emplace(scene, scene_);
   make_programs();
   const int lights = static_cast<int>(scene_.lights.size());
   if (!gl_->still || !gl_->still->is_for(gl_->features, lights)) {
@@ -198,7 +198,7 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
     gl_->still.emplace(gl_->features, lights);
   }
   upload_surfaces(scene);
-  gl_->maps.set_scene(scene_, scene.meshes, gl_->features, block_);
+  gl_->maps.set_scene(scene, scene_, gl_->features, block_);
   lights_are_stale_ = true;
   check_gl("taking the scene");
 }

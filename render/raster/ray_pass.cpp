@@ -66,7 +66,7 @@ public:
     trace_rays(path::Coherence::incoherent);
     for (std::size_t i = 0; i < paths_.size(); ++i) {
       if (hits_[i].mesh == path::MeshHit::none) continue;
-      add(paths_[i], -scene_.sky(paths_[i].ray.direction));
+      add(paths_[i], -scene_.sky_without_sun(paths_[i].ray.direction));
       arrive(i, 1, false);
     }
     step_on();

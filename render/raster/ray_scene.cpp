@@ -113,11 +113,12 @@ float alpha_for_rays(const Material& m) {
   return alpha <= smooth_alpha ? 0.0F : alpha;
 }
 
-RayScene::RayScene(const RenderScene& scene, std::span<const AreaLight> lights)
+RayScene::RayScene(const RenderScene& scene, const RenderScene& drawn)
     : geometry_(scene),
       ambient_(ambient_light(scene.sky, scene.ground)),
       ground_(scene.ground),
       sky_(scene.sky),
+      drawn_sky_(drawn.sky),
       has_background_(scene.background.has_value()),
       ground_alpha_(alpha_for_rays(scene.ground.material)),
       ground_mirror_(scene.ground.material) {
@@ -126,10 +127,10 @@ RayScene::RayScene(const RenderScene& scene, std::span<const AreaLight> lights)
     Surface& surface = surfaces_.emplace_back();
     surface.by_rays = drawn_by_rays(scene, mesh);
     const float thickness = mean_chord(mesh.positions, mesh.triangles);
-    const Material drawn = optics_stand_in(m, thickness, {false, surface.by_rays.mirrored});
+    const Material stand_in = optics_stand_in(m, thickness, {false, surface.by_rays.mirrored});
     surface.alpha = alpha_for_rays(!surface.by_rays.behind && m.coat > 0.0F ? coat_of(m) : m);
-    surface.base_color = drawn.base_color;
-    surface.diffuse = drawn.base_color;
+    surface.base_color = stand_in.base_color;
+    surface.diffuse = stand_in.base_color;
     if (surface.by_rays.any()) roughest_ = std::max(roughest_, surface.alpha);
     if (surface.by_rays.behind)
       surface.inside = {path::Absorption(m), std::max(m.ior, 1.001F), clear_part(m)};
@@ -137,12 +138,14 @@ RayScene::RayScene(const RenderScene& scene, std::span<const AreaLight> lights)
       if (m.coat > 0.0F) {
         surface.mirror.emplace(coat_of(m), m.coat);
       } else {
-        surface.mirror.emplace(drawn);
+        surface.mirror.emplace(stand_in);
         surface.diffuse *= 1.0F - m.metallic;
       }
     }
   }
-  for (const AreaLight& light : lights) {
+  const bool sun_is_in_sky = drawn.sky.map != scene.sky.map;
+  for (std::size_t k = 0; k + (sun_is_in_sky ? 1 : 0) < drawn.lights.size(); ++k) {
+    const AreaLight& light = drawn.lights[k];
     lights_.emplace_back(light);
     const float square = (light.position - light.look_at).squaredNorm();
     met_.push_back(light.size.prod() > least_sun * square ? 1 : 0);

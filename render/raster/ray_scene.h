@@ -43,8 +43,8 @@ struct DrawnPictures {
 
 class RayScene {
 public:
-  /// With the lights that are drawn. Throws DeviceError as RayCaster does.
-  RayScene(const RenderScene&, std::span<const AreaLight> lights);
+  /// `drawn`: with_stand_ins() of the scene. Throws DeviceError as RayCaster does.
+  RayScene(const RenderScene&, const RenderScene& drawn);
 
   path::SceneGeometry& geometry() { return geometry_; }
   const path::SceneGeometry& geometry() const { return geometry_; }
@@ -86,6 +86,8 @@ public:
   /// Radiance of lights that a ray meets before that.
   Color light_met(const Ray&, double distance) const;
   Color sky(const Vec3& direction) const { return sky_radiance(sky_, direction); }
+  /// Less a sun in a picture of it, which shines as one of the lights where it is not met by rays.
+  Color sky_without_sun(const Vec3& direction) const { return sky_radiance(drawn_sky_, direction); }
   /// Of the ground from where a ray meets it, as the picture without meshes shows it; outside of that, lit as
   /// if nothing were around.
   Color of_ground(const Camera&, const DrawnPictures&, const Vec3& point, const Vec3& direction) const;
@@ -105,7 +107,7 @@ private:
   std::vector<char> met_;         // lights that rays meet: 0 for small suns, which they would miss
   std::array<Color, 6> ambient_;  // irradiance of sky and open ground on surfaces that face +x, -x, +y ...
   Ground ground_;
-  Sky sky_;
+  Sky sky_, drawn_sky_;
   bool has_background_;  // a colour, which only the camera sees
   float roughest_ = 0.0F;
   float ground_alpha_;

@@ -92,7 +92,7 @@ void shadow_of_part(const DepthMaps& maps, std::size_t part, const ReceiverBlock
   bool any_blocked = false;
   at.for_each([&](int x, int y, const Receivers& r) {
     Blockers found;
-    find_blockers(maps, part, r, found);
+    find_blockers(maps, part, r, spacing, found);
     Lanes reach;
     std::transform(r.footprint.begin(), r.footprint.end(), reach.begin(), [](float f) { return 10.0F * f; });
     depth.put(x, y, found.depth);
@@ -142,7 +142,7 @@ void soft_shadow(const FrameBlock& frame, const DepthMaps& maps, int light, cons
                  std::vector<float>& seen) {
   const LightParts& parts = maps.lights[static_cast<std::size_t>(light)];
   if (parts.count == 1 && !parts.below_ground) {
-    shadow_of_part(maps, parts.first, at, 1.0F, seen);
+    shadow_of_part(maps, parts.first, at, static_cast<float>(at.step), seen);
     return;
   }
   std::vector<std::vector<float>> of_parts(parts.count);

@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iomanip>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <sstream>
+#include <utility>
 
 #include <Eigen/Geometry>
 
 #include "render/raster/frame_block.h"
+#include "render/raster/sky_sun.h"
 
 namespace lagomorph::render::raster {
 namespace {
@@ -94,6 +99,20 @@ std::string names_of_left_out(const RenderScene& scene, const std::vector<bool>&
   return names;
 }
 
+/// The sun of the scene's map of the sky, if it has one, out of the map and last of the suns; left where it
+/// is if it would not be among those drawn, for the sky shines all the same.
+std::optional<Sun> take_sun_of_sky(RenderScene& scene) {
+  std::optional<SkySun> found = sun_of_sky(scene.sky);
+  if (!found) return std::nullopt;
+  scene.suns.push_back(found->sun);
+  if (!which_are_drawn(scene).back()) {
+    scene.suns.pop_back();
+    return std::nullopt;
+  }
+  scene.sky.map = std::move(found->rest);
+  return found->sun;
+}
+
 }  // namespace
 
 float solid_angle(const Sun& sun) {
@@ -103,34 +122,43 @@ float solid_angle(const Sun& sun) {
 
 RenderScene with_stand_ins(const RenderScene& scene) {
   RenderScene drawn = scene;
+  take_sun_of_sky(drawn);
+  const std::vector<bool> is_drawn = which_are_drawn(drawn);
+  const Vec3 middle = middle_of(drawn);
+  const float distance = distance_of_suns(drawn);
+  const auto lights = std::exchange(drawn.lights, {});
+  const auto suns = std::exchange(drawn.suns, {});
   drawn.meshes.clear();
-  drawn.lights.clear();
-  drawn.suns.clear();
-  const Vec3 middle = middle_of(scene);
-  const float distance = distance_of_suns(scene);
-  const std::vector<bool> is_drawn = which_are_drawn(scene);
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    if (is_drawn[i]) drawn.lights.push_back(scene.lights[i]);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (is_drawn[i]) drawn.lights.push_back(lights[i]);
   }
-  for (std::size_t i = 0; i < scene.suns.size(); ++i) {
-    if (!is_drawn[scene.lights.size() + i]) continue;
-    drawn.suns.push_back(scene.suns[i]);
-    drawn.lights.push_back(far_square(scene.suns[i], middle, distance));
+  for (std::size_t i = 0; i < suns.size(); ++i) {
+    if (!is_drawn[lights.size() + i]) continue;
+    drawn.suns.push_back(suns[i]);
+    drawn.lights.push_back(far_square(suns[i], middle, distance));
   }
   return drawn;
 }
 
-std::vector<std::string> stand_in_remarks(const CameraSettings& camera, const RenderScene& scene) {
+std::vector<std::string> stand_in_remarks(const CameraSettings& camera, const RenderScene& given) {
   std::vector<std::string> remarks;
   if (camera.f_stop > 0.0F && !camera.orthographic)
     remarks.emplace_back("camera.f_stop: everything is drawn sharp");
-  if (scene.motion_segments > 0)
+  if (given.motion_segments > 0)
     remarks.emplace_back(
         "camera.shutter: drawn without motion blur of bodies or camera, as all is when the shutter closes");
+  RenderScene scene = given;
+  const std::optional<Sun> of_sky = take_sun_of_sky(scene);
   const std::vector<bool> is_drawn = which_are_drawn(scene);
   const auto suns = is_drawn.begin() + static_cast<std::ptrdiff_t>(scene.lights.size());
   if (std::find(suns, is_drawn.end(), true) != is_drawn.end())
     remarks.emplace_back("a sun is a far square light of its size");
+  if (of_sky) {
+    std::ostringstream line;
+    line << "sky.image: its sun, " << std::setprecision(2) << of_sky->angle
+         << " degrees wide, lights as a sun of its own";
+    remarks.push_back(line.str());
+  }
   if (std::find(is_drawn.begin(), is_drawn.end(), false) != is_drawn.end()) {
     remarks.push_back("draws at most " + std::to_string(most_lights) + " lights, the strongest: leaves out " +
                       names_of_left_out(scene, is_drawn) + "; --backend path draws all");

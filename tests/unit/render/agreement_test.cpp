@@ -294,12 +294,14 @@ TEST(BackEndsAgree, OnTheShadowsOfNearLights) {
 }
 
 TEST(BackEndsAgree, OnDirectLightOfASun) {
-  RenderScene scene = matte_scene();
-  scene.suns.resize(1);
-  scene.suns[0].angle = 3.0F;
-  const auto [apart, bias] = light_apart(scene);
-  EXPECT_LT(apart, 0.004);
-  EXPECT_LT(std::abs(bias), 0.001);
+  for (const float angle : {3.0F, 8.0F, 20.0F}) {  // as one, in 9 and in 36 parts
+    RenderScene scene = matte_scene();
+    scene.suns.resize(1);
+    scene.suns[0].angle = angle;
+    const auto [apart, bias] = light_apart(scene);
+    EXPECT_LT(apart, 0.004) << angle;  // 0.008 of 20 degrees with one map
+    EXPECT_LT(std::abs(bias), 0.001) << angle;
+  }
 }
 
 /// Dim blue above, brown below, and a bright patch of 40 x 30 degrees at one side, which the rotation turns.
@@ -374,6 +376,22 @@ TEST(BackEndsAgree, OnTheShadowOfASkyMapsBrightPatch) {
   scene.ground.material = scene.meshes[0].material;
   const auto [apart, bias] = light_apart(scene, 4);
   EXPECT_LT(apart, 0.06);
+  EXPECT_LT(std::abs(bias), 0.025);
+}
+
+/// A sun of 3 degrees in a picture of the sky.
+TEST(BackEndsAgree, OnTheShadowOfASkyMapsSun) {
+  RenderScene scene = sphere_under_sky(0.0F, 1.0F);
+  scene.ground.enabled = true;
+  scene.ground.height = -0.3F;
+  scene.ground.material = scene.meshes[0].material;
+  constexpr int columns = 360, rows = 180;
+  std::vector<Color> texels(static_cast<std::size_t>(columns * rows), Color(0.2F, 0.3F, 0.5F));
+  for (int k = 0; k < 9; ++k)
+    texels[static_cast<std::size_t>((50 + k / 3) * columns + 225 + k % 3)] = Color(900.0F, 800.0F, 600.0F);
+  scene.sky.map = std::make_shared<const SkyMap>(columns, rows, std::move(texels));
+  const auto [apart, bias] = light_apart(scene, 4);
+  EXPECT_LT(apart, 0.035);  // 0.053 where the sun is left in the sky
   EXPECT_LT(std::abs(bias), 0.025);
 }
 

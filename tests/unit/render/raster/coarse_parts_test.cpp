@@ -63,6 +63,13 @@ TEST(CoarseParts, DoNotSayWhatANarrowEdgeHides) {
   EXPECT_EQ(found(cells, 3 * step), 0.0F);
 }
 
+TEST(CoarseParts, DoNotSayWhereAShadowIsDarkBesideANarrowEdge) {
+  const Cells cells = filled(cells_of_a_plane(), {1.0F, 1.0F, 0.96F, 0.5F, 0.04F, 0.0F, 0.0F, 0.0F});
+  EXPECT_FLOAT_EQ(found(cells, step + 2), 0.98F);
+  for (int x = 2 * step; x < 5 * step; ++x) EXPECT_EQ(found(cells, x), -1.0F) << x;
+  EXPECT_EQ(found(cells, 5 * step), 0.0F);
+}
+
 TEST(CoarseParts, AreThoseOfTheOwnSurface) {
   const std::array<float, block_width> parts = {0.5F, 0.5F, 0.58F, 0.58F, 0.58F, 0.58F, 0.58F, 0.58F};
   for (const ReceiverBlocks& receivers :

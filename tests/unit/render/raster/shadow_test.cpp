@@ -81,6 +81,58 @@ TEST(RasterShadow, ALightOfSizeHasItsPenumbra) {
   }
 }
 
+/// Where the shadow is full, along the beginnings of its penumbra.
+TEST(RasterShadow, TheUmbraHasNoSpecksOfLight) {
+  const RenderScene scene = square_over_ground(0.3F);  // as one map sees it
+  CameraSettings camera;
+  camera.position = Vec3(0.4F, 1.1F, 4.0F);
+  camera.look_at = Vec3(0.0F, 0.0F, 0.45F);
+  camera.fov = 25.0F;
+  RenderSettings settings = small_settings(960, 480);
+  settings.raster.shadow_map = 1024;
+  const Image image = draw(scene, camera, settings);
+  const Camera view(camera, settings.width, settings.height);
+  float most = 0.0F, open = 0.0F;
+  for (float x = -0.6F; x < 0.6F; x += 0.002F) {
+    for (const float z : {0.56F, 0.57F, 0.58F, 0.59F, 0.6F, 0.605F})
+      most = std::max(most, color_of(image, view, Vec3(x, 0.0F, z))[0]);
+    open = std::max(open, color_of(image, view, Vec3(x, 0.0F, 0.9F))[0]);
+  }
+  EXPECT_LT(most / open, 0.025F);  // 0.099 where cells blur them
+}
+
+/// Of a small sun, at a low camera to which an edge of the shadow is nearly level: from column to column the
+/// lit part of the pixels above one another grows as the edge rises, not by whole pixels.
+TEST(RasterShadow, ASmallSunsEdgeHasNoStepsOfPixels) {
+  RenderScene scene = empty_scene();
+  scene.ground.enabled = true;
+  scene.suns.resize(1);
+  scene.suns[0].direction = Vec3(0.0F, -1.0F, -0.2F);
+  scene.suns[0].angle = 0.3F;
+  scene.meshes = {rectangle(Vec3(0.0F, 0.1F, 0.0F), 0.5F * Vec3::UnitZ(), 0.5F * Vec3(1.0F, 0.0F, 0.1F))};
+  CameraSettings camera;
+  camera.position = Vec3(0.0F, 0.35F, 3.5F);
+  camera.look_at = Vec3(0.0F, 0.0F, 0.4F);
+  camera.fov = 20.0F;
+  RenderSettings settings = small_settings(320, 200);
+  settings.raster.shadow_map = 2048;
+  const Image image = draw(scene, camera, settings);
+  const Camera view(camera, settings.width, settings.height);
+  const int left = static_cast<int>(view.project(Vec3(-0.4F, 0.0F, 0.45F)).x());
+  const int right = static_cast<int>(view.project(Vec3(0.4F, 0.0F, 0.45F)).x());
+  const int middle = static_cast<int>(view.project(Vec3(0.0F, 0.0F, 0.45F)).y());
+  const auto lit = [&](int x) {
+    double sum = 0.0;
+    for (int y = middle - 6; y < middle + 7; ++y)
+      sum += static_cast<double>(color_at(image, x, y)[0] / color_at(image, x, middle + 20)[0]);
+    return sum;
+  };
+  double most = 0.0;
+  for (int x = left; x < right; ++x) most = std::max(most, std::abs(lit(x + 1) - lit(x)));
+  EXPECT_GT(std::abs(lit(right) - lit(left)), 0.5);
+  EXPECT_LT(most, 0.1);  // 0.53 where a pixel is lit at its middle
+}
+
 TEST(RasterShadow, StandsAtTheFootOfABody) {
   RenderScene scene = square_over_ground(0.05F);
   scene.meshes = {box(Vec3(-0.5F, 0.0F, -0.5F), Vec3(0.5F, 1.0F, 0.5F))};
