@@ -63,13 +63,16 @@ void Overlays::see(int frame, const StateRecord& state, const sim::VecX& q) {
   if (needs_positions()) most_ = std::max(most_, glyphs_.largest_displacement(q));
   if (!scene_.energy_plot.show) return;
   const sim::Energies& e = state.energy;
-  const std::array<double, 4> all = {e.kinetic, e.elastic, e.gravitational, e.total()};
-  if (!std::all_of(all.begin(), all.end(), [](double v) { return std::isfinite(v); })) return;
-  const auto [low, high] = std::minmax_element(all.begin(), all.end());
+  const EnergySample sample{state.time, e.kinetic, e.elastic, e.gravitational, e.total()};
+  if (!std::isfinite(sample.total)) return;  // it is where all others are
   const bool first = energies_.empty();
-  axes_.energy = {first ? *low : std::min(axes_.energy[0], *low),
-                  first ? *high : std::max(axes_.energy[1], *high)};
-  energies_[frame] = {state.time, e.kinetic, e.elastic, e.gravitational, e.total()};
+  for (const std::string& curve : scene_.energy_plot.curves) {
+    const double energy = energy_of(sample, curve);
+    const bool none = first && &curve == &scene_.energy_plot.curves.front();
+    axes_.energy = {none ? energy : std::min(axes_.energy[0], energy),
+                    none ? energy : std::max(axes_.energy[1], energy)};
+  }
+  energies_[frame] = sample;
 }
 
 std::map<std::string, std::array<double, 2>> Overlays::ranges() const {
@@ -77,7 +80,7 @@ std::map<std::string, std::array<double, 2>> Overlays::ranges() const {
   if (scene_.glyphs.displacement_every > 0) all["glyphs.displacement"] = {0.0, most_};
   if (scene_.energy_plot.show) {
     all["energy_plot.time"] = {0.0, std::max(1, scene_.time.frames - 1) / scene_.time.fps};
-    all["energy_plot.energy"] = axes_.energy;
+    all["energy_plot.energy"] = scene_.energy_plot.range.value_or(axes_.energy);
   }
   return all;
 }
@@ -236,7 +239,11 @@ void Overlays::draw_energies(render::Picture& picture, OverlayLayout& layout, in
   std::vector<EnergySample> so_far;
   for (const auto& [of, sample] : energies_)
     if (of <= frame) so_far.push_back(sample);
-  const EnergyAxes axes{ranges().at("energy_plot.time"), axes_.energy};
+  const auto axis = ranges();
+  const EnergyAxes axes{.time = axis.at("energy_plot.time"),
+                        .energy = axis.at("energy_plot.energy"),
+                        .given = scene_.energy_plot.range.has_value(),
+                        .curves = scene_.energy_plot.curves};
   if (const auto plate = place_energy_plot(layout, axes, scene_.energy_plot.place))
     draw_energy_plot(picture, so_far, axes, *plate);
 }

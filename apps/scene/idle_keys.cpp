@@ -69,6 +69,7 @@ const std::vector<IdleRow>& idle_rows() {
                             [](const BodyDesc& b) { return b.physics.pin.empty(); });
        },
        "no body has a pin"},
+      {{"energy_plot."}, [](const SceneDesc& s) { return !s.energy_plot.show; }, "energy_plot.show is false"},
       {{"layout."}, [](const SceneDesc& s) { return s.panel.empty(); }, "there is no [[panel]]"},
   };
   return rows;

@@ -69,6 +69,13 @@ TEST(IdleKeys, OfGlyphsOfNothing) {
   EXPECT_EQ(idle_keys(parse_scene(held, "a.toml", {})), Lines{});
 }
 
+TEST(IdleKeys, OfADiagramThatIsNotShown) {
+  const std::string plot = "[energy_plot]\nplace = \"top\"\nrange = [0, 1]\n";
+  EXPECT_EQ(idle(plot),
+            Lines{"energy_plot.place, energy_plot.range have no effect: energy_plot.show is false"});
+  EXPECT_EQ(idle(plot + "show = true"), Lines{});
+}
+
 TEST(IdleKeys, OfPanels) {
   EXPECT_EQ(idle("[layout]\ncolumns = 2"), Lines{"layout.columns has no effect: there is no [[panel]]"});
   EXPECT_EQ(idle("[layout]\ncolumns = 2\n[[panel]]"), Lines{});
