@@ -38,6 +38,12 @@ TEST(IdleKeys, OfTheCamera) {
   EXPECT_EQ(idle("[camera]\nmargin = 0.1\n[[panel]]\n[[panel]]\nframe = \"rest\""), Lines{}) << "of a panel";
   EXPECT_EQ(idle("[camera]\nblades = 6\nfocus_distance = 2\n[render]\nbackend = \"path\""),
             Lines{"camera.focus_distance, camera.blades have no effect: camera.f_stop is 0"});
+  EXPECT_EQ(idle("[camera]\nblades = 6\nsensor_height = 0.03"),
+            Lines{"camera.sensor_height, camera.blades have no effect: camera.f_stop is 0"})
+      << "by the rasterizer, too";
+  EXPECT_EQ(idle("[camera]\nkey = [{ frame = 0, focus_distance = 2 }]"),
+            Lines{"camera.key.0.focus_distance has no effect: camera.f_stop is 0"});
+  EXPECT_EQ(idle("[camera]\nkey = [{ frame = 0, focus_distance = 2 }, { frame = 9, f_stop = 2 }]"), Lines{});
 }
 
 TEST(IdleKeys, OfALensWithoutPerspective) {
