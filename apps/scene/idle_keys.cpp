@@ -70,6 +70,9 @@ const std::vector<IdleRow>& idle_rows() {
        },
        "no body has a pin"},
       {{"energy_plot."}, [](const SceneDesc& s) { return !s.energy_plot.show; }, "energy_plot.show is false"},
+      {{"ground.shadow_catcher"},
+       [](const SceneDesc& s) { return !s.render.transparent; },
+       "render.transparent is false"},
       {{"layout."}, [](const SceneDesc& s) { return s.panel.empty(); }, "there is no [[panel]]"},
   };
   return rows;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <tbb/parallel_for.h>
+
 #include "render/backends.h"
 #include "render/error.h"
 #include "render/ground_texture.h"
@@ -20,6 +22,7 @@
 #include "render/raster/lit_pixels.h"
 #include "render/raster/mesh_buffers.h"
 #include "render/raster/optics_stand_in.h"
+#include "render/raster/pixel_ray.h"
 #include "render/raster/programs.h"
 #include "render/raster/shaders/shaders.h"
 #include "render/raster/stand_ins.h"
@@ -114,6 +117,7 @@ private:
   bool ground_hides(const Camera&) const;
   void draw_seen(bool behind_ground) const;
   void put_background(const PixelRectangle& drawn, std::span<float> color);
+  void catch_shadows(const StillParts&, const PixelRectangle& drawn, std::span<float> color);
   struct LayerPass {
     const Program &surface, &layer;
     GLenum weight_of_drawn;
@@ -130,6 +134,7 @@ private:
            settings_.channels.end();
   }
 
+  bool catches_shadows() const { return scene_.ground.enabled && scene_.ground.shadow_catcher; }
   bool draws_alpha() const { return settings_.transparent || wants(alpha_channel); }
 
   RenderSettings settings_;
@@ -142,6 +147,7 @@ private:
   FrameBlock block_{};
   std::vector<SurfaceTexel> surfaces_;  // the first layer's
   LitPixels lit_;                       // likewise
+  std::vector<float> caught_;           // alpha of the ground as a shadow catcher, rows from the top
   bool lights_are_stale_ = true;
   double seconds_reading_ = 0.0;  // of all targets
   bool has_ground_ = false;       // the scene; scene_ has it where it is drawn
@@ -158,6 +164,7 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
   context_->make_current();
   scene_ = with_stand_ins(scene);
   if (settings_.transparent) scene_.background = Color::Zero();
+  scene_.ground.shadow_catcher = scene_.ground.shadow_catcher && settings_.transparent;
   has_ground_ = scene_.ground.enabled;
   positions_.clear();
   body_ids_.clear();
@@ -413,6 +420,29 @@ void RasterRenderer::put_background(const PixelRectangle& drawn, std::span<float
   const StillParts& still = gl_->still->draw(block_, tiles);
   light_ground(block_, gl_->maps.depths(), tiles, lit_);
   copy_less_taken(block_, still, gl_->maps.ground_seen(), tiles, lit_, drawn, color);
+  if (catches_shadows()) catch_shadows(still, drawn, color);
+}
+
+/// Of the ground only what is taken of its light is left, as alpha: black is behind its fading edge.
+void RasterRenderer::catch_shadows(const StillParts& still, const PixelRectangle& drawn,
+                                   std::span<float> color) {
+  const auto width = static_cast<std::size_t>(still.width);
+  caught_.assign(still.pixels(), 0.0F);
+  const auto luminance = [](const float* c) { return 0.2126F * c[0] + 0.7152F * c[1] + 0.0722F * c[2]; };
+  tbb::parallel_for(drawn.y, drawn.y + drawn.height, [&](int y) {
+    for (int x = drawn.x; x < drawn.x + drawn.width; ++x) {
+      const std::size_t from_below = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+      const std::size_t at =
+          static_cast<std::size_t>(still.height - 1 - y) * width + static_cast<std::size_t>(x);
+      float* const left = color.data() + 3 * at;
+      const float all = luminance(still.picture.data() + 3 * from_below), reached = luminance(left);
+      std::fill_n(left, 3, 0.0F);
+      const auto ground = ground_at_pixel(block_, static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+      if (!ground || !(all > 0.0F)) continue;
+      const float there = 1.0F - ground_fade(scene_.ground, ground->point);
+      caught_[at] = there * std::clamp(1.0F - reached / all, 0.0F, 1.0F);
+    }
+  });
 }
 
 /// The bound samples that are seen, lit once a pixel and surface, into the picture or that of the peeled
@@ -535,8 +565,12 @@ void RasterRenderer::draw_alpha(Image& image) {
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   gl_->alpha->use();
+  glUniform1i(gl_->alpha->location("catches_shadows"), catches_shadows() ? 1 : 0);
   draw_full_screen();
-  gl_->targets->read_values(image.add(alpha_channel, 1));
+  std::vector<float>& alpha = image.add(alpha_channel, 1);
+  gl_->targets->read_values(alpha);
+  if (!catches_shadows()) return;
+  for (std::size_t i = 0; i < alpha.size(); ++i) alpha[i] += (1.0F - alpha[i]) * caught_[i];
 }
 
 /// Those of DataPass's channels that the image has.

@@ -82,6 +82,12 @@ TEST(IdleKeys, OfADiagramThatIsNotShown) {
   EXPECT_EQ(idle(plot + "show = true"), Lines{});
 }
 
+TEST(IdleKeys, OfAShadowCatcherInOpaquePictures) {
+  EXPECT_EQ(idle("[ground]\nshadow_catcher = true"),
+            Lines{"ground.shadow_catcher has no effect: render.transparent is false"});
+  EXPECT_EQ(idle("[ground]\nshadow_catcher = true\n[render]\ntransparent = true"), Lines{});
+}
+
 TEST(IdleKeys, OfPanels) {
   EXPECT_EQ(idle("[layout]\ncolumns = 2"), Lines{"layout.columns has no effect: there is no [[panel]]"});
   EXPECT_EQ(idle("[layout]\ncolumns = 2\n[[panel]]"), Lines{});
