@@ -42,7 +42,7 @@ std::string rgb(const render::Color& c) { return fmt::format("{:.6g} {:.6g} {:.6
 
 /// Blender's reading of the classic keys: Ns = 1000 (1 - roughness)^2, Ks its Specular, where 0.5 is an
 /// index of 1.5, and with a mirror (illum 3, 6) Ka how much of a metal it is.
-std::string material(const std::string& name, const render::Material& look) {
+std::string material_entry(const std::string& name, const render::Material& look) {
   const float r0 = (look.ior - 1.0F) / (look.ior + 1.0F);
   const float specular = std::min(r0 * r0 / 0.08F, 1.0F);
   const float smooth = 1.0F - look.roughness;
@@ -102,7 +102,7 @@ std::string obj_library_name(const SceneDesc& scene) { return one_word(scene.nam
 std::string obj_library(const ExportedScene& scene) {
   const std::vector<std::string> names = obj_names(scene.model.mesh());
   std::string text = "# Lagomorph " + std::string(version()) + "\n";
-  for (std::size_t i = 0; i < names.size(); ++i) text += material(names[i], scene.desc.body[i].look);
+  for (std::size_t i = 0; i < names.size(); ++i) text += material_entry(names[i], scene.desc.body[i].look);
   return text;
 }
 

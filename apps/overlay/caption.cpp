@@ -144,8 +144,10 @@ std::optional<Caption> place_caption(OverlayLayout& layout, const std::string& t
     return Caption{*plate, std::move(lines), height};
   };
   const std::vector<std::string> given = lines_of(text);
-  for (; height > layout.text_height(); height *= 0.95)
+  while (height > layout.text_height()) {
     if (std::optional<Caption> caption = placed(given)) return caption;
+    height *= 0.95;
+  }
   height = layout.text_height();
   const double pad = height;
   if (std::optional<Caption> caption = placed(given)) return caption;

@@ -181,6 +181,7 @@ std::optional<Segment> between_heights(Segment s, double top, double bottom) {
 
 std::vector<std::string> energy_curves() {
   std::vector<std::string> names;
+  names.reserve(all_curves.size());
   for (const Curve& curve : all_curves) names.emplace_back(curve.key);
   return names;
 }
