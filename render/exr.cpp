@@ -8,6 +8,7 @@
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfFramesPerSecond.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
@@ -56,14 +57,14 @@ void add_planes(const Channel& channel, std::vector<ExrPlane>& planes) {
   }
 }
 
-std::string encode(int width, int height, const std::vector<ExrPlane>& planes,
-                   const std::optional<PartOfPicture>& part) {
-  const PartOfPicture at = part.value_or(PartOfPicture{0, 0, width, height});
+std::string encode(int width, int height, const std::vector<ExrPlane>& planes, const ExrHeader& told) {
+  const PartOfPicture at = told.part.value_or(PartOfPicture{0, 0, width, height});
   const Imath::Box2i display({0, 0}, {at.width - 1, at.height - 1});
   const Imath::Box2i data({at.x, at.y}, {at.x + width - 1, at.y + height - 1});
   Imf::Header header(display, data);
   header.compression() = Imf::ZIP_COMPRESSION;
-  Imf::addChromaticities(header, {});  // Rec. 709
+  Imf::addChromaticities(header, {});                                            // Rec. 709
+  if (told.fps) Imf::addFramesPerSecond(header, Imf::guessExactFps(*told.fps));  // 23.976 is 24000/1001
   Imf::FrameBuffer pixels;
   for (const ExrPlane& plane : planes) {
     header.channels().insert(plane.name, Imf::Channel(Imf::FLOAT));
@@ -89,14 +90,14 @@ const Channel& wanted(const Image& image, const std::string& name) {
 
 }  // namespace
 
-std::string encode_exr(const Channel& channel, const std::optional<PartOfPicture>& part) {
+std::string encode_exr(const Channel& channel, const ExrHeader& header) {
   std::vector<ExrPlane> planes;
   add_planes(channel, planes);
-  return encode(channel.width, channel.height, planes, part);
+  return encode(channel.width, channel.height, planes, header);
 }
 
 std::string encode_multilayer_exr(const Image& image, std::span<const std::string> channels, bool transparent,
-                                  const std::optional<PartOfPicture>& part) {
+                                  const ExrHeader& header) {
   std::vector<ExrPlane> planes;
   add_planes(wanted(image, color_channel), planes);
   std::vector<float> opaque;
@@ -105,7 +106,7 @@ std::string encode_multilayer_exr(const Image& image, std::span<const std::strin
   for (const std::string& name : channels) {
     if (name != color_channel && channel_kind(name).cell == 1) add_planes(wanted(image, name), planes);
   }
-  return encode(image.width(), image.height(), planes, part);
+  return encode(image.width(), image.height(), planes, header);
 }
 
 }  // namespace lagomorph::render

@@ -65,6 +65,8 @@ struct Ground {
   float texture_size = 0.5F;                      // side of a square [m], in [1e-3, 1e6]
   Color texture_color = Color(0.3F, 0.3F, 0.3F);  // of every other square, or the lines, in [0, 1]
   float line_width = 0.008F;                      // of a grid [m], > 0
+  /// Of transparent pictures: the camera sees no ground, but as alpha the part of its light that meshes take.
+  bool shadow_catcher = false;
 };
 
 /// A one-sided rectangle that shines from `position` towards `look_at`, Lambertian; `size` is width, height.

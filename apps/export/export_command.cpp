@@ -10,6 +10,7 @@
 #include "apps/cli/print.h"
 #include "apps/commands.h"
 #include "apps/export/formats.h"
+#include "apps/export/obj.h"
 #include "apps/export/pictures.h"
 #include "apps/file_io.h"
 #include "apps/pipeline/build_scene.h"
@@ -99,18 +100,23 @@ void add_colors(ExportedScene& scene, const StatesOfRun& states, const std::func
   scene.colors = fields.colors(state(scene.color_frame).q);
 }
 
-/// A file a frame, and for vtu the list of their times. False: asked to stop.
+/// A file a frame, for vtu the list of their times, and for obj first the materials. False: asked to stop.
 bool write_frames(const ExportedSequence& sequence, const ExportFormat& format, const fs::path& out,
                   std::vector<std::string>& files) {
   make_folder(out);
   std::vector<std::pair<double, std::string>> times;
+  const std::string_view name = format.name;
+  if (name == "obj") {
+    files.push_back(obj_library_name(sequence.scene.desc));
+    write_file(out / files.back(), obj_library(sequence.scene));
+  }
   sequence.begin(1);
   const bool all = sequence.each([&](const sim::State& state) {
     files.push_back(frame_file(state.frame, format.extension));
     times.emplace_back(state.t, files.back());
     write_file(out / files.back(), format.frame(sequence.scene, state));
   });
-  if (!all || std::string_view(format.name) != "vtu") return all;
+  if (!all || name != "vtu") return all;
   files.push_back(sequence.scene.desc.name + ".pvd");
   write_file(out / files.back(), collection(times));
   return true;

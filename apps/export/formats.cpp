@@ -8,6 +8,7 @@
 #include "apps/error.h"
 #include "apps/export/gltf.h"
 #include "apps/export/look_remarks.h"
+#include "apps/export/obj.h"
 #include "apps/export/usd.h"
 #include "apps/pipeline/surface_fields.h"
 #include "sim/io/field_writers.h"
@@ -62,16 +63,13 @@ std::string ply(const ExportedScene& scene, const sim::State& state) {
   return sim::io::write_ply(surface_mesh(scene, state.q), fields);
 }
 
-std::string obj(const ExportedScene& scene, const sim::State& state) {
-  return sim::io::write_obj(surface_mesh(scene, state.q));
-}
-
 /// The explicit table: a new format is one row.
-constexpr ExportFormat formats[] = {{"vtu", ".vtu", true, true, false, vtu, nullptr, nullptr},
-                                    {"ply", ".ply", true, false, false, ply, nullptr, nullptr},
-                                    {"obj", ".obj", false, false, false, obj, nullptr, nullptr},
-                                    {"gltf", ".glb", false, false, true, nullptr, write_gltf, gltf_remarks},
-                                    {"usda", ".usda", true, false, false, nullptr, write_usd, usd_remarks}};
+constexpr ExportFormat formats[] = {
+    {"vtu", ".vtu", true, true, false, vtu, nullptr, nullptr},
+    {"ply", ".ply", true, false, false, ply, nullptr, nullptr},
+    {"obj", ".obj", false, false, false, write_obj_frame, nullptr, obj_remarks},
+    {"gltf", ".glb", false, false, true, nullptr, write_gltf, gltf_remarks},
+    {"usda", ".usda", true, false, false, nullptr, write_usd, usd_remarks}};
 
 }  // namespace
 

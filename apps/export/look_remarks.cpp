@@ -26,6 +26,12 @@ std::vector<std::string> remarks(const ExportedScene& scene, const char* format,
   return lines;
 }
 
+/// Of formats that know nothing clear inside.
+std::vector<std::string> opaque_inside(const render::Material& look) {
+  if (!has_clear_inside(look)) return {};
+  return {"transmission (an opaque base of absorption_color)"};
+}
+
 }  // namespace
 
 std::vector<std::string> gltf_remarks(const ExportedScene& scene) {
@@ -40,10 +46,13 @@ std::vector<std::string> gltf_remarks(const ExportedScene& scene) {
   return lines;
 }
 
+std::vector<std::string> obj_remarks(const ExportedScene& scene) {
+  return remarks(scene, "obj", opaque_inside);
+}
+
 std::vector<std::string> usd_remarks(const ExportedScene& scene) {
   return remarks(scene, "usda", [](const render::Material& look) {
-    std::vector<std::string> what;
-    if (has_clear_inside(look)) what.emplace_back("transmission (an opaque base of absorption_color)");
+    std::vector<std::string> what = opaque_inside(look);
     if (look.sheen > 0.0F) what.emplace_back("sheen");
     return what;
   });

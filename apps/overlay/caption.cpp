@@ -135,15 +135,21 @@ std::vector<std::string> caption_places() {
 std::optional<Caption> place_caption(OverlayLayout& layout, const std::string& text,
                                      const std::string& place) {
   if (text.empty()) return std::nullopt;
-  const double height = layout.text_height(), pad = height;
+  double height = layout.caption_height();
   const auto placed = [&](std::vector<std::string> lines) -> std::optional<Caption> {
     if (lines.empty()) return std::nullopt;
     const std::optional<Rectangle> plate =
-        layout.take(steady_width(lines, height) + 2.0 * pad, plate_height(lines.size(), height), place);
+        layout.take(steady_width(lines, height) + 2.0 * height, plate_height(lines.size(), height), place);
     if (!plate) return std::nullopt;
-    return Caption{*plate, std::move(lines)};
+    return Caption{*plate, std::move(lines), height};
   };
   const std::vector<std::string> given = lines_of(text);
+  while (height > layout.text_height()) {
+    if (std::optional<Caption> caption = placed(given)) return caption;
+    height *= 0.95;
+  }
+  height = layout.text_height();
+  const double pad = height;
   if (std::optional<Caption> caption = placed(given)) return caption;
   // Where not all of the width is free, narrower lines may have room.
   const double widest = layout.width() - 2.0 * layout.margin() - 2.0 * pad;
@@ -171,7 +177,7 @@ std::optional<Caption> place_caption(OverlayLayout& layout, const std::string& t
 void draw_caption(render::Picture& picture, const Caption& caption) {
   draw_plate(picture, caption.plate);
   const Rectangle& plate = caption.plate;
-  const double height = overlay_text_height(picture), pad = height;
+  const double height = caption.height, pad = height;
   const double left = plate.left + 0.5 * (plate.right - plate.left - steady_width(caption.lines, height));
   const TextStyle style{.height = height, .color = plate_ink};
   for (std::size_t i = 0; i < caption.lines.size(); ++i)

@@ -32,9 +32,11 @@ std::vector<std::string> caption_places();
 struct Caption {
   Rectangle plate;
   std::vector<std::string> lines;
+  double height = 0.0;  // of capitals [pixels]
 };
 
-/// Takes room for a text at a place as above; none where there is no text or no room for a word. Lines that
+/// Takes room for a text at a place as above; none where there is no text or no room for a word. Capitals are
+/// as tall as the layout's captions, where the lines have room so, else as small as its text. Lines that
 /// are too wide are wrapped at spaces, and what has no room in height is cut, with three dots in its place.
 /// The plate and the lines' ends are the same for other digits.
 std::optional<Caption> place_caption(OverlayLayout&, const std::string& text, const std::string& place);

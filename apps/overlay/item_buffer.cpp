@@ -57,6 +57,12 @@ void ItemBuffer::draw(std::span<const render::Triangle> triangles, std::span<con
   }
 }
 
+void ItemBuffer::peel() {
+  peeled_ = depths_;
+  std::fill(depths_.begin(), depths_.end(), std::numeric_limits<float>::infinity());
+  std::fill(items_.begin(), items_.end(), none);
+}
+
 void ItemBuffer::fill(const ViewPoint& a, const ViewPoint& b, const ViewPoint& c, int item) {
   const double area = cross(a, b, c.x, c.y);
   if (!(std::abs(area) > 0.0)) return;
@@ -81,7 +87,7 @@ void ItemBuffer::fill(const ViewPoint& a, const ViewPoint& b, const ViewPoint& c
       const double z = wa * za + wb * zb + wc * zc;
       const auto depth = static_cast<float>(perspective ? 1.0 / z : z);
       const std::size_t i = at(x, y);
-      if (depth > depths_[i]) continue;
+      if (depth > depths_[i] || (!peeled_.empty() && !(depth > peeled_[i]))) continue;
       depths_[i] = depth;
       items_[i] = item;
     }

@@ -31,6 +31,9 @@ public:
   /// Draws triangles, the i-th as item first_item + i. Of equally distant ones the last drawn is seen.
   void draw(std::span<const render::Triangle>, std::span<const render::Vec3> positions, int first_item = 0);
 
+  /// Takes away what is in front: from now on only what is behind it is drawn. [Everitt 2001]
+  void peel();
+
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   bool holds(int column, int row) const {
@@ -51,6 +54,7 @@ private:
   render::Camera camera_;
   int columns_, rows_;
   std::vector<float> depths_;
+  std::vector<float> peeled_;  // depths of what was taken away; none at first
   std::vector<int> items_;
 };
 

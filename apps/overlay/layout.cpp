@@ -20,7 +20,8 @@ OverlayLayout::OverlayLayout(int width, int height)
     : width_(width),
       height_(height),
       unit_(overlay_unit(width, height)),
-      text_height_(overlay_text_height(width, height)) {}
+      text_height_(overlay_text_height(width, height)),
+      caption_height_(text_height_) {}
 
 double OverlayLayout::margin() const { return std::round(3.0 * unit_); }
 

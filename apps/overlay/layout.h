@@ -16,7 +16,10 @@ public:
 
   double unit() const { return unit_; }                // see overlay_unit()
   double text_height() const { return text_height_; }  // see overlay_text_height()
-  double margin() const;                               // between them and the picture's edge
+  /// Of captions, where their lines have room for so tall capitals; text_height() unless it is set.
+  double caption_height() const { return caption_height_; }
+  void set_caption_height(double pixels) { caption_height_ = pixels; }
+  double margin() const;  // between them and the picture's edge
   int width() const { return width_; }
   int height() const { return height_; }
 
@@ -29,7 +32,7 @@ public:
 
 private:
   int width_, height_;
-  double unit_, text_height_;
+  double unit_, text_height_, caption_height_;
   std::vector<Rectangle> taken_;
 };
 

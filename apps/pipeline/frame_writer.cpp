@@ -29,18 +29,19 @@ std::string encode_npy(const render::Channel& channel) {
 
 /// One of channel_files().
 std::string encode_file(const std::string& file, const render::Image& image,
-                        const render::RenderSettings& settings) {
+                        const render::RenderSettings& settings, double fps) {
   const render::PixelRegion drawn = settings.drawn();
-  const render::PartOfPicture part{drawn.x0, drawn.y0, settings.width, settings.height};
+  const render::ExrHeader header{
+      .part = render::PartOfPicture{drawn.x0, drawn.y0, settings.width, settings.height}, .fps = fps};
   if (file == multilayer_file)
-    return render::encode_multilayer_exr(image, settings.channels, settings.transparent, part);
+    return render::encode_multilayer_exr(image, settings.channels, settings.transparent, header);
   const std::string name(channel_of(file));
   const render::Channel* channel = image.find(name);
   if (channel == nullptr)
     throw Error(ExitStatus::machine, "the renderer '" + settings.backend + "' gave no channel " + name);
   const std::string_view extension = channel_extension(file);
   if (extension == png_extension) return render::encode_channel_png(*channel, settings.png_compression);
-  return extension == exr_extension ? render::encode_exr(*channel, part) : encode_npy(*channel);
+  return extension == exr_extension ? render::encode_exr(*channel, header) : encode_npy(*channel);
 }
 
 }  // namespace
@@ -103,8 +104,9 @@ PictureRecord FrameWriter::write_picture(const DrawnFrame& drawn, const StateRec
   const bool whole = scene_.render.region.empty();
   const render::Image part = whole ? render::Image() : cropped(image, scene_.render.drawn());
   for (const std::string& file : channel_files(scene_.render)) {
-    const std::string bytes =
-        timed(sim::Stage::encode, [&] { return encode_file(file, whole ? image : part, scene_.render); });
+    const std::string bytes = timed(sim::Stage::encode, [&] {
+      return encode_file(file, whole ? image : part, scene_.render, scene_.time.fps);
+    });
     record.channels[file] = timed(sim::Stage::write, [&] {
       write_file(paths_.channel(file, frame), bytes);
       return sha256(bytes);

@@ -53,23 +53,29 @@ Overlays::Overlays(const SceneDesc& scene, const sim::Model& model, const std::v
 bool Overlays::has_any_in_world() const {
   const bool labels =
       std::any_of(labels_.begin(), labels_.end(), [](const Labels& l) { return !l.is_empty(); });
-  const bool orientations = std::any_of(scene_.body.begin(), scene_.body.end(), [](const BodyDesc& b) {
-    return b.surface.face_orientation && b.surface.fill;
-  });
-  return has_any(wireframes_) || has_any(ghosts_) || labels || orientations || !glyphs_.is_empty();
+  return has_any(wireframes_) || has_any(ghosts_) || labels || shows_face_orientations() ||
+         !glyphs_.is_empty();
+}
+
+bool Overlays::shows_face_orientations() const {
+  return std::any_of(scene_.body.begin(), scene_.body.end(),
+                     [](const BodyDesc& b) { return b.surface.face_orientation && b.surface.fill; });
 }
 
 void Overlays::see(int frame, const StateRecord& state, const sim::VecX& q) {
   if (needs_positions()) most_ = std::max(most_, glyphs_.largest_displacement(q));
   if (!scene_.energy_plot.show) return;
   const sim::Energies& e = state.energy;
-  const std::array<double, 4> all = {e.kinetic, e.elastic, e.gravitational, e.total()};
-  if (!std::all_of(all.begin(), all.end(), [](double v) { return std::isfinite(v); })) return;
-  const auto [low, high] = std::minmax_element(all.begin(), all.end());
+  const EnergySample sample{state.time, e.kinetic, e.elastic, e.gravitational, e.total()};
+  if (!std::isfinite(sample.total)) return;  // it is where all others are
   const bool first = energies_.empty();
-  axes_.energy = {first ? *low : std::min(axes_.energy[0], *low),
-                  first ? *high : std::max(axes_.energy[1], *high)};
-  energies_[frame] = {state.time, e.kinetic, e.elastic, e.gravitational, e.total()};
+  for (const std::string& curve : scene_.energy_plot.curves) {
+    const double energy = energy_of(sample, curve);
+    const bool none = first && &curve == &scene_.energy_plot.curves.front();
+    axes_.energy = {none ? energy : std::min(axes_.energy[0], energy),
+                    none ? energy : std::max(axes_.energy[1], energy)};
+  }
+  energies_[frame] = sample;
 }
 
 std::map<std::string, std::array<double, 2>> Overlays::ranges() const {
@@ -77,7 +83,7 @@ std::map<std::string, std::array<double, 2>> Overlays::ranges() const {
   if (scene_.glyphs.displacement_every > 0) all["glyphs.displacement"] = {0.0, most_};
   if (scene_.energy_plot.show) {
     all["energy_plot.time"] = {0.0, std::max(1, scene_.time.frames - 1) / scene_.time.fps};
-    all["energy_plot.energy"] = axes_.energy;
+    all["energy_plot.energy"] = scene_.energy_plot.range.value_or(axes_.energy);
   }
   return all;
 }
@@ -121,16 +127,17 @@ std::vector<float> Overlays::seen_through(const render::Camera& camera, const si
   return shares;
 }
 
-void Overlays::draw_face_orientations(render::Picture& picture, const View& view, const sim::VecX& q,
-                                      bool see_through_hide) const {
+void Overlays::draw_face_orientations(render::Picture& picture, const render::Camera& camera,
+                                      const sim::VecX& q) const {
+  if (!shows_face_orientations()) return;
   enum class Side : char { untold, outside, inside };
-  const render::Camera& camera = view.camera();
-  std::vector<Side> sides;  // of the items of view_of(), towards the eye
-  bool any = false;
+  std::vector<Side> sides;      // of the items, towards the eye
+  std::vector<double> through;  // how much of what is behind it an item lets through
+  std::vector<std::vector<render::Vec3>> positions;
   for (std::size_t i = 0; i < drawn_.size(); ++i) {
-    if (drawn_[i].mesh.triangles.empty() || !hides(i, see_through_hide)) continue;
     const SurfaceDesc& surface = scene_.body[i].surface;
-    const std::vector<render::Vec3> x = positions_of(drawn_[i], q);
+    positions.push_back(positions_of(drawn_[i], q));
+    const std::vector<render::Vec3>& x = positions.back();
     for (const auto& [a, b, c] : drawn_[i].mesh.triangles) {
       const render::Vec3 normal = (x[b] - x[a]).cross(x[c] - x[a]);
       const render::Vec3 to_eye =
@@ -138,36 +145,64 @@ void Overlays::draw_face_orientations(render::Picture& picture, const View& view
       const bool outside = (normal.dot(to_eye) > 0.0F) != surface.flip;
       sides.push_back(!surface.face_orientation ? Side::untold : outside ? Side::outside : Side::inside);
     }
-    any = any || surface.face_orientation;
+    through.resize(sides.size(), 1.0 - static_cast<double>(scene_.body[i].look.opacity));
   }
-  if (!any) return;
-  constexpr Color blue = {40, 90, 255}, red = {255, 40, 40};
+
   constexpr int n = ItemBuffer::samples;
-  for (int y = 0; y < picture.height; ++y) {
-    for (int column = 0; column < picture.width; ++column) {
-      int outside = 0, inside = 0;
-      for (int s = 0; s < n * n; ++s) {
-        const int c = n * column + s % n, r = n * y + s / n;
-        const int item = view.items().item(c, r);
+  struct Seen {
+    double outside = 0.0, inside = 0.0;
+  };
+  const auto width = static_cast<std::size_t>(picture.width);
+  std::vector<Seen> seen(width * static_cast<std::size_t>(picture.height));  // in samples
+  View view(camera, scene_.ground);
+  const auto columns = static_cast<std::size_t>(view.items().columns());
+  std::vector<double> left(columns * static_cast<std::size_t>(view.items().rows()), 1.0);  // of a sample
+  constexpr int most_layers = 64;
+  constexpr double least = 1.0 / 512.0;  // of a sample that is still to be told
+  for (int layer = 0; layer < most_layers; ++layer) {
+    int first_item = 0;
+    for (std::size_t i = 0; i < drawn_.size(); ++i) {
+      view.items().draw(drawn_[i].mesh.triangles, positions[i], first_item);
+      first_item += static_cast<int>(drawn_[i].mesh.triangles.size());
+    }
+    bool more = false;
+    for (int row = 0; row < view.items().rows(); ++row) {
+      for (int column = 0; column < view.items().columns(); ++column) {
+        const int item = view.items().item(column, row);
         if (item == ItemBuffer::none) continue;
-        const Side side = sides[static_cast<std::size_t>(item)];
+        double& rest = left[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)];
         // What the ground is in front of is not seen.
-        if (side == Side::untold ||
-            !view.sees(ViewPoint{(c + 0.5) / n, (r + 0.5) / n, view.items().depth(c, r)}))
+        if (rest < least ||
+            !view.sees(ViewPoint{(column + 0.5) / n, (row + 0.5) / n, view.items().depth(column, row)})) {
+          rest = 0.0;
           continue;
-        (side == Side::outside ? outside : inside) += 1;
+        }
+        const auto at = static_cast<std::size_t>(item);
+        Seen& pixel = seen[static_cast<std::size_t>(row / n) * width + static_cast<std::size_t>(column / n)];
+        if (sides[at] == Side::outside) pixel.outside += rest * (1.0 - through[at]);
+        if (sides[at] == Side::inside) pixel.inside += rest * (1.0 - through[at]);
+        rest *= through[at];
+        more = more || rest >= least;
       }
-      if (outside + inside == 0) continue;
+    }
+    if (!more) break;
+    view.items().peel();
+  }
+
+  constexpr Color blue = {40, 90, 255}, red = {255, 40, 40};
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const std::size_t at = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+      const double sum = seen[at].outside + seen[at].inside;
+      if (!(sum > 0.0)) continue;
       // In place of its own colour, lit as that is.
-      const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                      static_cast<std::size_t>(column);
       const std::uint8_t* own = picture.rgb.data() + 3 * at;
       const double light = 0.35 + 0.65 * (own[0] + own[1] + own[2]) / (3.0 * 255.0);
-      const double part = static_cast<double>(outside) / (outside + inside);
+      const double part = seen[at].outside / sum;
       Color tint;
       for (std::size_t c = 0; c < 3; ++c)
         tint[c] = static_cast<std::uint8_t>(std::lround(light * (part * blue[c] + (1.0 - part) * red[c])));
-      blend(picture, column, y, tint, static_cast<double>(outside + inside) / (n * n));
+      blend(picture, x, y, tint, sum / (n * n));
     }
   }
 }
@@ -207,7 +242,6 @@ void Overlays::draw_labels(render::Picture& picture, const View& view, const sim
 void Overlays::draw_in_world(render::Picture& picture, const render::Camera& camera, const sim::State& state,
                              bool see_through_hide) const {
   const View view = view_of(camera, state.q, see_through_hide);
-  draw_face_orientations(picture, view, state.q, see_through_hide);
   draw_ghosts(picture, view);
   draw_wireframes(picture, view, state.q, see_through_hide);
   glyphs_.draw(picture, view, state, most_, [&](std::size_t body) { return hides(body, see_through_hide); });
@@ -216,6 +250,7 @@ void Overlays::draw_in_world(render::Picture& picture, const render::Camera& cam
 
 void Overlays::draw(render::Picture& picture, const render::Camera& camera, const sim::State& state) const {
   if (!has_any_in_world()) return;
+  draw_face_orientations(picture, camera, state.q);
   bool any = false;
   for (std::size_t i = 0; i < scene_.body.size(); ++i) any = any || is_see_through(i);
   if (!any) return draw_in_world(picture, camera, state, true);
@@ -236,7 +271,11 @@ void Overlays::draw_energies(render::Picture& picture, OverlayLayout& layout, in
   std::vector<EnergySample> so_far;
   for (const auto& [of, sample] : energies_)
     if (of <= frame) so_far.push_back(sample);
-  const EnergyAxes axes{ranges().at("energy_plot.time"), axes_.energy};
+  const auto axis = ranges();
+  const EnergyAxes axes{.time = axis.at("energy_plot.time"),
+                        .energy = axis.at("energy_plot.energy"),
+                        .given = scene_.energy_plot.range.has_value(),
+                        .curves = scene_.energy_plot.curves};
   if (const auto plate = place_energy_plot(layout, axes, scene_.energy_plot.place))
     draw_energy_plot(picture, so_far, axes, *plate);
 }

@@ -54,13 +54,14 @@ private:
   bool hides(std::size_t body, bool see_through_hide) const {
     return see_through_hide || !is_see_through(body);
   }
+  bool shows_face_orientations() const;
   /// Everything that a renderer draws and that hides what is behind it: see-through bodies as asked for.
   View view_of(const render::Camera&, const sim::VecX& q, bool see_through_hide) const;
   void draw_in_world(render::Picture&, const render::Camera&, const sim::State&, bool see_through_hide) const;
   /// How much of what is behind see-through bodies is seen in each pixel: what the nearest lets through.
   std::vector<float> seen_through(const render::Camera&, const sim::VecX& q) const;
-  /// Outsides blue, insides red, where they are seen.
-  void draw_face_orientations(render::Picture&, const View&, const sim::VecX& q, bool see_through_hide) const;
+  /// Outsides blue, insides red, as much as they are seen: through see-through bodies, too.
+  void draw_face_orientations(render::Picture&, const render::Camera&, const sim::VecX& q) const;
   void draw_ghosts(render::Picture&, const View&) const;
   void draw_wireframes(render::Picture&, const View&, const sim::VecX& q, bool see_through_hide) const;
   void draw_labels(render::Picture&, const View&, const sim::VecX& q) const;

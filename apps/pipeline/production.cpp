@@ -191,7 +191,10 @@ std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress
   if (p.renderer) {
     check_png_ids(p.scene, surfaces);
     const render::RenderScene drawn = build_render_scene(p.scene, model, surfaces);
-    for (const std::string& remark : render::renderer_remarks(p.scene.render, p.scene.camera, drawn))
+    render::CameraSettings camera = p.scene.camera;
+    for (const CameraKey& key : p.scene.camera.key)
+      camera.f_stop = std::max(camera.f_stop, key.f_stop.value_or(0.0F));
+    for (const std::string& remark : render::renderer_remarks(p.scene.render, camera, drawn))
       progress.note(remark);
     for (const std::string& remark : views.remarks()) progress.note(remark);
     SceneDesc given = p.scene;

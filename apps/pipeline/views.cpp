@@ -71,6 +71,12 @@ render::PixelRegion part_of(const PanelPlace& p, const render::PixelRegion& regi
           in(region.y1, p.y, p.height)};
 }
 
+/// Of a panel's title: that of a caption of the whole picture, as far as it goes with the panel.
+double title_height(const PanelPlace& panel, const render::Image& whole) {
+  return std::min(overlay_text_height(whole.width(), whole.height()),
+                  2.6 * overlay_unit(panel.width, panel.height));
+}
+
 bool is_empty(const render::PixelRegion& r) { return r.width() <= 0 || r.height() <= 0; }
 
 }  // namespace
@@ -244,6 +250,7 @@ render::Picture Views::finish(const render::Image& image, const sim::State& stat
     const PanelPlace& place = view->place;
     if (is_empty(part_of(place, scene_.render.drawn()))) continue;
     OverlayLayout layout(place.width, place.height);
+    layout.set_caption_height(std::max(layout.text_height(), title_height(place, image)));
     if (const std::optional<Rectangle> p = caption.plate())
       layout.occupy({p->left - place.x, p->top - place.y, p->right - place.x, p->bottom - place.y});
     paste(finished(*view, cropped(image, region_of(place)), std::move(layout)), place, whole);

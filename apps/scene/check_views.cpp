@@ -64,12 +64,15 @@ void check_frame(const CameraDesc& camera, const render::CameraSettings& c, cons
 void check_key(const CameraDesc& c, std::size_t i, double fps, const Places& places) {
   const CameraKey& key = c.key[i];
   const std::string path = fmt::format("camera.key.{}", i);
-  const auto refuse = [&](const char* what) {
+  const auto refuse = [&](const std::string& what) {
     wrong_input(fmt::format("{}{} {}", places.of(path), path, what));
   };
   if (key.time.has_value() == key.frame.has_value()) refuse("needs a time or a frame, one of them");
   const auto time = [&](const CameraKey& k) { return k.time ? *k.time : *k.frame / fps; };
-  if (i > 0 && time(key) <= time(c.key[i - 1])) refuse("must be later than the one before it");
+  if (i > 0 && time(key) <= time(c.key[i - 1])) {
+    refuse(fmt::format("is at {:.6g} s and must be later than camera.key.{}, at {:.6g} s", time(key), i - 1,
+                       time(c.key[i - 1])));
+  }
   if (!key.position && !key.look_at && !key.up && !key.fov && !key.orthographic && !key.zoom &&
       !key.focus_distance && !key.f_stop)
     refuse("says nothing; give position, look_at, up, fov, orthographic, zoom, focus_distance or f_stop");

@@ -56,8 +56,8 @@ const std::vector<IdleRow>& idle_rows() {
       {{"camera.margin"},
        [](const SceneDesc& s) { return !fits_a_box(s); },
        "camera.frame is neither \"rest\" nor \"motion\""},
-      {{"camera.focus_distance", "camera.blades", "camera.blade_rotation"},
-       [](const SceneDesc& s) { return s.render.backend == "path" && !has_lens(s); },
+      {{"camera.focus_distance", "camera.sensor_height", "camera.blades", "camera.blade_rotation"},
+       [](const SceneDesc& s) { return !has_lens(s); },
        "camera.f_stop is 0"},
       {{"camera.f_stop", "camera.focus_distance", "camera.sensor_height", "camera.blades",
         "camera.blade_rotation"},
@@ -69,9 +69,21 @@ const std::vector<IdleRow>& idle_rows() {
                             [](const BodyDesc& b) { return b.physics.pin.empty(); });
        },
        "no body has a pin"},
+      {{"energy_plot."}, [](const SceneDesc& s) { return !s.energy_plot.show; }, "energy_plot.show is false"},
+      {{"ground.shadow_catcher"},
+       [](const SceneDesc& s) { return !s.render.transparent; },
+       "render.transparent is false"},
       {{"layout."}, [](const SceneDesc& s) { return s.panel.empty(); }, "there is no [[panel]]"},
   };
   return rows;
+}
+
+/// Of keys of a camera that all draw sharp.
+IdleRow of_no_lens(std::size_t key_count) {
+  IdleRow row{{}, nullptr, "camera.f_stop is 0"};
+  for (std::size_t i = 0; i < key_count; ++i)
+    row.keys.push_back(fmt::format("camera.key.{}.focus_distance", i));
+  return row;
 }
 
 /// Of a body whose surface has its own colour.
@@ -103,6 +115,7 @@ std::vector<std::string> idle_keys(const SceneDesc& scene) {
   };
   for (const IdleRow& row : idle_rows())
     if (row.is_idle(scene)) tell(row);
+  if (!has_lens(scene)) tell(of_no_lens(scene.camera.key.size()));
   for (std::size_t i = 0; i < scene.body.size(); ++i)
     if (!shows_field(scene, i)) tell(of_no_field(i));
   return lines;

@@ -363,6 +363,11 @@ void visit_ground(render::Ground& g, KeyVisitor& v) {
          .bounds = at_least(0),
          .meaning = "up to where it is opaque, < radius"},
         &g.fade_start);
+  v.key({.name = "shadow_catcher",
+         .meaning =
+             "with render.transparent the floor is not seen, but the bodies' shadows on it, as alpha: the "
+             "part of its light that they take"},
+        &g.shadow_catcher);
   v.key({.name = "texture",
          .meaning = "squares of two colours, or lines, from the world's origin; lines at whole metres are "
                     "three times as wide",

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "render/types.h"
 #include "sim/types.h"
@@ -59,6 +61,8 @@ struct GlyphsDesc {
 struct EnergyPlotDesc {
   bool show = false;
   std::string place = "top_left";  // see caption_places()
+  std::vector<std::string> curves = {"kinetic", "elastic", "gravitational", "total"};
+  std::optional<std::array<double, 2>> range;  // of the energy axis [J]; none: by the curves of all frames
 };
 
 }  // namespace lagomorph::apps

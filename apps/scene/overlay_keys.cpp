@@ -1,6 +1,7 @@
 #include "apps/scene/overlay_keys.h"
 
 #include "apps/overlay/caption.h"
+#include "apps/overlay/energy_plot.h"
 #include "render/colormap.h"
 
 namespace lagomorph::apps {
@@ -91,6 +92,12 @@ void visit_glyphs(GlyphsDesc& g, KeyVisitor& v) {
 void visit_energy_plot(EnergyPlotDesc& p, KeyVisitor& v) {
   v.key({.name = "show", .meaning = "whether it is drawn"}, &p.show);
   v.key({.name = "place", .meaning = "where in the picture", .choices = caption_places}, &p.place);
+  v.key({.name = "curves", .meaning = "that are drawn", .choices = energy_curves}, &p.curves);
+  v.key({.name = "range",
+         .unit = "J",
+         .meaning = "of the axis of energies; without it from the least to the greatest of the curves in all "
+                    "frames. Beyond it curves are cut off"},
+        &p.range);
 }
 
 void visit_clip(ClipDesc& c, KeyVisitor& v) {

@@ -6,10 +6,12 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "apps/error.h"
 #include "apps/nearest.h"
 #include "apps/overlay/caption.h"
+#include "apps/overlay/energy_plot.h"
 #include "apps/scene/read.h"
 #include "apps/scene/scene.h"
 #include "apps/utf8.h"
@@ -191,13 +193,20 @@ void resolve_ground(SceneDesc& scene, const Places& places) {
     scene.ground.enabled = false;
 }
 
+void check_range(const std::optional<std::array<double, 2>>& range, const std::string& key,
+                 const Places& places) {
+  if (!range || (*range)[0] < (*range)[1]) return;
+  wrong_input(fmt::format("{}{} = [{}, {}]: the first must be less than the second", places.of(key), key,
+                          (*range)[0], (*range)[1]));
+}
+
 void check_looks(const SceneDesc& scene, const Places& places) {
-  for (std::size_t i = 0; i < scene.body.size(); ++i) {
-    const std::optional<std::array<double, 2>>& range = scene.body[i].shown.range;
-    if (!range || (*range)[0] < (*range)[1]) continue;
-    const std::string key = fmt::format("body.{}.look.range", i);
-    wrong_input(fmt::format("{}{} = [{}, {}]: the first must be less than the second", places.of(key), key,
-                            (*range)[0], (*range)[1]));
+  for (std::size_t i = 0; i < scene.body.size(); ++i)
+    check_range(scene.body[i].shown.range, fmt::format("body.{}.look.range", i), places);
+  check_range(scene.energy_plot.range, "energy_plot.range", places);
+  if (scene.energy_plot.curves.empty()) {
+    wrong_input(fmt::format("{}energy_plot.curves is empty; give some of {}", places.of("energy_plot.curves"),
+                            fmt::join(energy_curves(), ", ")));
   }
   if (scene.ground.fade_start >= scene.ground.radius) {
     const char* key = places.has("ground.fade_start") ? "ground.fade_start" : "ground.radius";

@@ -69,6 +69,7 @@ void PathTracer::arrive(std::uint32_t depth) {
   PathRows& paths = *paths_;
   SurfaceRows& s = b.surfaces;
   vertices_.clear();
+  caught_.clear();
   const std::size_t on_meshes = b.meetings.count;
   std::fill_n(s.alive.begin(), on_meshes, 0U);
   s.count = on_meshes;
@@ -103,6 +104,10 @@ void PathTracer::arrive(std::uint32_t depth) {
     indirect_[lane] = depth > paths.clear[i] ? 1 : 0;
     const bool on_ground = ahead.ground < SceneGeometry::never;
     if (!on_ground && !ahead.on_mesh) continue;
+    if (on_ground && depth == 0 && shading_.ground.shadow_catcher) {
+      catch_ground(i, ahead, share);
+      continue;
+    }
     const std::size_t mesh = on_ground ? shading_.brdfs.size() - 1 : b.hits[i].mesh;
     const Bsdf& bsdf = shading_.brdfs[mesh];
     if (bsdf.has_layers()) {
@@ -166,6 +171,22 @@ void PathTracer::see_surfaces(std::size_t on_meshes) {
   }
   const CoatAlbedoTable& rougher = coat_albedo_by_roughness();
   for (const SurfaceRange& r : b.ranges) view_surfaces(*r.material, rougher, r.range, b.surfaces);
+}
+
+/// A path of the camera that ends on a shadow catcher.
+void PathTracer::catch_ground(std::size_t i, const Ahead& ahead, float share) {
+  const std::uint32_t lane = paths_->lane[i];
+  const Ray ray = paths_->rays[i];
+  const Vec3 point = vec3(batch_->ground.point[i]);
+  const float up = ray.direction.y() < 0.0F ? 1.0F : -1.0F;
+  if (first_hits_.empty()) return;
+  FirstHit& hit = first_hits_[lane];
+  hit.albedo = shading_.textured_ground(point).value_or(shading_.albedos.back());
+  hit.normal = Vec3(0.0F, up, 0.0F);
+  hit.depth = depth_at(lane, ray, ahead.ground);
+  hit.opacity = share;
+  hit.catches = true;
+  caught_.push_back({point, up, lane});
 }
 
 /// A surface with layers becomes a vertex.

@@ -189,16 +189,89 @@ void PathTracer::push_shadow(const Ray& ray, float distance, const Color& arrivi
   shadows_->push(f3(ray.origin), f3(ray.direction), distance, f3(Color(through * arriving)), lane);
 }
 
-void PathTracer::trace_shadows(Coherence coherence) {
+void PathTracer::find_blocked(Coherence coherence) {
   ShadowRows& s = *shadows_;
   if (moving_) {
     for (std::size_t i = 0; i < s.rays.count; ++i) s.rays.time[i] = times_[s.lane[i]];
   }
   geometry_.caster().occluded(s.rays, coherence, s.blocked);
   if (shading_.see_through) dim_shadows(coherence);
+}
+
+void PathTracer::trace_shadows(Coherence coherence) {
+  ShadowRows& s = *shadows_;
+  find_blocked(coherence);
   for (std::size_t i = 0; i < s.rays.count; ++i) {
     if (s.blocked[i] == 0) add_light(s.lane[i], color(s.light[i]));
   }
+  s.rays.count = 0;
+}
+
+/// Light that arrives at the shadow catcher, and what of it meshes let through: a pixel's alpha is by the
+/// sums of both over its samples, so that it is exact where nothing or all is hidden.
+void PathTracer::catch_shadows() {
+  if (caught_.empty()) return;
+  constexpr std::uint32_t depth = 0;
+  constexpr float far = std::numeric_limits<float>::infinity();
+  const std::vector<RectangleLight>& lights = shading_.lights;
+  const auto light_from = [&](const Caught& c, const RectangleLight& light, float pick, Pair pair) {
+    const RectangleLight::Sample to = light.sample(c.point, pair);
+    push_caught(c, to.direction, to.distance * (1.0F - 1e-5F), pick * to.pdf, light.radiance());
+  };
+  if (all_lights_at(depth)) {
+    for (std::size_t k = 0; k < lights.size(); ++k) {
+      const std::uint32_t name = dimension(depth, light_dimension + static_cast<std::uint32_t>(k));
+      for (const Caught& c : caught_) light_from(c, lights[k], 1.0F, samples_of(c.lane).pair(name));
+      trace_caught(Coherence::coherent);
+    }
+  } else {
+    for (const Caught& c : caught_) {
+      const PathSamples samples = samples_of(c.lane);
+      const std::size_t k = picked_of(shading_.pick, samples.pair(dimension(depth, choice_dimension)).v);
+      light_from(c, lights[k], shading_.pick[k], samples.pair(dimension(depth, light_dimension)));
+    }
+    trace_caught(Coherence::incoherent);
+  }
+  for (const Caught& c : caught_) {
+    if (shading_.suns.empty()) break;
+    const PathSamples samples = samples_of(c.lane);
+    const std::size_t k =
+        shading_.suns.size() > 1
+            ? picked_of(shading_.sun_pick, samples.pair(dimension(depth, sun_choice_dimension)).u)
+            : 0;
+    const SunLight& sun = shading_.suns[k];
+    push_caught(c, sun.sample(samples.pair(dimension(depth, sun_dimension))), far,
+                shading_.sun_pick[k] * sun.pdf(), sun.radiance());
+  }
+  trace_caught(Coherence::coherent);
+  for (const Caught& c : caught_) {
+    if (shading_.sky.strength <= 0.0F) break;
+    const Pair pair = samples_of(c.lane).pair(dimension(depth, sky_dimension));
+    if (shading_.sky_sampler) {
+      const SkySampler::Sample to = shading_.sky_sampler->sample(pair);
+      push_caught(c, to.direction, far, to.pdf, sky_radiance(shading_.sky, to.direction));
+    } else {
+      const Vec3 about_z = sample_cosine(pair);
+      const Vec3 direction(about_z.x(), c.up * about_z.z(), about_z.y());
+      push_caught(c, direction, far, about_z.z() * inv_pi, sky_radiance(shading_.sky, direction));
+    }
+  }
+  trace_caught(Coherence::incoherent);
+}
+
+void PathTracer::push_caught(const Caught& c, const Vec3& direction, float distance, float pdf,
+                             const Color& radiance) {
+  const float light = luminance(f3(radiance)) * c.up * direction.y() / pdf;
+  if (!(pdf > 0.0F && light > 0.0F)) return;
+  shadows_->push(f3(c.point), f3(direction), distance, {light, light, light}, c.lane);
+}
+
+void PathTracer::trace_caught(Coherence coherence) {
+  ShadowRows& s = *shadows_;
+  for (std::size_t i = 0; i < s.rays.count; ++i) first_hits_[s.lane[i]].light += s.light[i].x;
+  find_blocked(coherence);
+  for (std::size_t i = 0; i < s.rays.count; ++i)
+    if (s.blocked[i] == 0) first_hits_[s.lane[i]].reached += s.light[i].x;
   s.rays.count = 0;
 }
 

@@ -57,6 +57,7 @@ public:
     check_scene(scene);
     scene_ = scene;
     if (settings_.transparent) scene_.background = Color::Zero();
+    scene_.ground.shadow_catcher = scene_.ground.shadow_catcher && settings_.transparent;
     arena_.execute([&] { geometry_.emplace(scene_); });
     shading_.emplace(scene_);
   }

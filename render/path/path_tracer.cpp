@@ -167,6 +167,7 @@ void PathTracer::trace_batch(std::uint32_t depth) {
   meet_ground(geometry_.ground(), rays, batch_->ground);
   depth > 0 ? meet_lights(depth - 1) : see_background();
   arrive(depth);
+  catch_shadows();
   leave_cloudy_insides();
   next_->rays.count = 0;
   if (batch_->surfaces.count > 0 || !vertices_.empty()) {

@@ -29,6 +29,9 @@ struct FirstHit {
   float depth = 0.0F;          // along the view axis [m]
   float opacity = 0.0F;        // of that surface: less than 1 where the ground fades, 0 where nothing is
   bool on_light = false;       // a visible light is seen, behind that surface or alone
+  /// Of a shadow catcher: estimates of its irradiance, in luminance, without and with the meshes.
+  bool catches = false;
+  float light = 0.0F, reached = 0.0F;
 };
 
 /// A rectangle of pixels [x0, x1) x [y0, y1).
@@ -97,6 +100,12 @@ private:
     bool on_mesh;
     bool on_light = false;  // a visible light, as the camera sees it
   };
+  /// A point of a shadow catcher.
+  struct Caught {
+    Vec3 point;
+    float up;  // the side that is seen: 1 or -1
+    std::uint32_t lane;
+  };
   struct SurfaceRange {
     Range range;
     const BrdfConstants* material;
@@ -145,7 +154,12 @@ private:
   void gather_sky(std::uint32_t depth);
   void shadow_surfaces();
   void push_shadow(const Ray&, float distance, const Color& arriving, std::uint32_t lane);
+  void find_blocked(Coherence);
   void trace_shadows(Coherence);
+  void catch_ground(std::size_t path, const Ahead&, float share);
+  void catch_shadows();
+  void push_caught(const Caught&, const Vec3& direction, float distance, float pdf, const Color& radiance);
+  void trace_caught(Coherence);
   void dim_shadows(Coherence);
   void scatter(std::uint32_t depth);
 
@@ -165,6 +179,7 @@ private:
   std::unique_ptr<ShadowRows> shadows_;
   std::unique_ptr<Batch> batch_;
   std::vector<Vertex> vertices_;
+  std::vector<Caught> caught_;
   RandomWalk walks_;
   std::vector<Vertex> entered_;         // where each walk began
   std::vector<std::uint8_t> indirect_;  // by lane: light now comes over two counted surfaces or more

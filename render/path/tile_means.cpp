@@ -46,7 +46,13 @@ void TileMeans::add(int x, int y, const Color& radiance, const FirstHit& hit) {
   p.normal += opacity * hit.normal.cast<double>();
   p.depth += opacity * static_cast<double>(hit.depth);
   p.opacity += opacity;
-  p.alpha += hit.on_light ? 1.0 : opacity;
+  if (hit.catches && !hit.on_light) {
+    p.catches += opacity;
+    p.light += static_cast<double>(hit.light);
+    p.reached += static_cast<double>(hit.reached);
+  } else {
+    p.alpha += hit.on_light ? 1.0 : opacity;
+  }
   ++p.samples;
 }
 
@@ -68,7 +74,10 @@ void TileMeans::write() const {
         channels_.depth[at] = p.opacity > 0.0 ? static_cast<float>(p.depth / p.opacity)
                                               : std::numeric_limits<float>::infinity();
       }
-      if (channels_.alpha != nullptr) channels_.alpha[at] = static_cast<float>(p.alpha / p.samples);
+      if (channels_.alpha != nullptr) {
+        const double taken = p.light > 0.0 ? 1.0 - p.reached / p.light : 0.0;
+        channels_.alpha[at] = static_cast<float>((p.alpha + p.catches * taken) / p.samples);
+      }
       if (!colors_.empty()) put(channels_.variance, colors_[i].variance());
     }
   }

@@ -56,6 +56,7 @@ private:
     double depth = 0.0;
     double opacity = 0.0;
     double alpha = 0.0;
+    double catches = 0.0, light = 0.0, reached = 0.0;  // of a shadow catcher
     int samples = 0;
   };
 

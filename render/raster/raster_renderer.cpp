@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <tbb/parallel_for.h>
+
 #include "render/backends.h"
 #include "render/error.h"
 #include "render/ground_texture.h"
@@ -20,6 +22,7 @@
 #include "render/raster/lit_pixels.h"
 #include "render/raster/mesh_buffers.h"
 #include "render/raster/optics_stand_in.h"
+#include "render/raster/pixel_ray.h"
 #include "render/raster/programs.h"
 #include "render/raster/ray_pass.h"
 #include "render/raster/ray_scene.h"
@@ -128,7 +131,9 @@ private:
     return std::any_of(gl_->meshes.begin(), gl_->meshes.end(),
                        [](const MeshBuffers& m) { return m.clear(); });
   }
+  bool ground_mirrors_by_rays() const { return mirrors_by_rays(scene_.ground) && !catches_shadows(); }
   void put_background(const PixelRectangle& drawn, std::span<float> color);
+  void catch_shadows(const StillParts&, const PixelRectangle& drawn, std::span<float> color);
   struct LayerPass {
     const Program &surface, &layer;
     GLenum weight_of_drawn;
@@ -145,6 +150,7 @@ private:
            settings_.channels.end();
   }
 
+  bool catches_shadows() const { return scene_.ground.enabled && scene_.ground.shadow_catcher; }
   bool draws_alpha() const { return settings_.transparent || wants(alpha_channel); }
 
   RenderSettings settings_;
@@ -157,6 +163,7 @@ private:
   FrameBlock block_{};
   std::vector<SurfaceTexel> surfaces_;  // the first layer's
   LitPixels lit_;                       // likewise
+  std::vector<float> caught_;           // alpha of the ground as a shadow catcher, rows from the top
   bool lights_are_stale_ = true;
   double seconds_reading_ = 0.0;  // of all targets
   bool has_ground_ = false;       // the scene; scene_ has it where it is drawn
@@ -175,6 +182,7 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
   context_->make_current();
   scene_ = with_stand_ins(scene);
   if (settings_.transparent) scene_.background = Color::Zero();
+  scene_.ground.shadow_catcher = scene_.ground.shadow_catcher && settings_.transparent;
   has_ground_ = scene_.ground.enabled;
   positions_.clear();
   body_ids_.clear();
@@ -422,7 +430,7 @@ void RasterRenderer::draw_with_rays(const Camera& camera, const PixelRectangle& 
     pictures.solid = solid;
     pictures.surfaces = {whole_blocks(seen), surfaces};
   }
-  if (mirrors_by_rays(scene_.ground)) {
+  if (ground_mirrors_by_rays()) {
     add_mirrored_by_ground(*gl_->rays, camera, pictures, mirrored_rectangle(camera, positions_, scene_),
                            color);
   }
@@ -501,8 +509,31 @@ void RasterRenderer::put_background(const PixelRectangle& drawn, std::span<float
   const std::vector<TileRun> tiles = touched_tiles(block_, gl_->maps.casters(), gl_->maps.least_map(), drawn);
   const StillParts& still = gl_->still->draw(block_, tiles);
   light_ground(block_, gl_->maps.depths(), tiles, lit_);
-  copy_less_taken(block_, still, gl_->maps.ground_seen(), tiles, lit_, drawn, mirrors_by_rays(scene_.ground),
+  copy_less_taken(block_, still, gl_->maps.ground_seen(), tiles, lit_, drawn, ground_mirrors_by_rays(),
                   color);
+  if (catches_shadows()) catch_shadows(still, drawn, color);
+}
+
+/// Of the ground only what is taken of its light is left, as alpha: black is behind its fading edge.
+void RasterRenderer::catch_shadows(const StillParts& still, const PixelRectangle& drawn,
+                                   std::span<float> color) {
+  const auto width = static_cast<std::size_t>(still.width);
+  caught_.assign(still.pixels(), 0.0F);
+  const auto luminance = [](const float* c) { return 0.2126F * c[0] + 0.7152F * c[1] + 0.0722F * c[2]; };
+  tbb::parallel_for(drawn.y, drawn.y + drawn.height, [&](int y) {
+    for (int x = drawn.x; x < drawn.x + drawn.width; ++x) {
+      const std::size_t from_below = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+      const std::size_t at =
+          static_cast<std::size_t>(still.height - 1 - y) * width + static_cast<std::size_t>(x);
+      float* const left = color.data() + 3 * at;
+      const float all = luminance(still.picture.data() + 3 * from_below), reached = luminance(left);
+      std::fill_n(left, 3, 0.0F);
+      const auto ground = ground_at_pixel(block_, static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+      if (!ground || !(all > 0.0F)) continue;
+      const float there = 1.0F - ground_fade(scene_.ground, ground->point);
+      caught_[at] = there * std::clamp(1.0F - reached / all, 0.0F, 1.0F);
+    }
+  });
 }
 
 /// The bound samples that are seen, lit once a pixel and surface, into the picture or that of the peeled
@@ -625,8 +656,12 @@ void RasterRenderer::draw_alpha(Image& image) {
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
   gl_->alpha->use();
+  glUniform1i(gl_->alpha->location("catches_shadows"), catches_shadows() ? 1 : 0);
   draw_full_screen();
-  gl_->targets->read_values(image.add(alpha_channel, 1));
+  std::vector<float>& alpha = image.add(alpha_channel, 1);
+  gl_->targets->read_values(alpha);
+  if (!catches_shadows()) return;
+  for (std::size_t i = 0; i < alpha.size(); ++i) alpha[i] += (1.0F - alpha[i]) * caught_[i];
 }
 
 /// Those of DataPass's channels that the image has.

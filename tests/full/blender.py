@@ -76,6 +76,10 @@ assert math.isclose(input_of(body, "Clearcoat").default_value, 0.5), "coat"
 for frame in (1, 4):
     obj = imported(bpy.ops.wm.obj_import, f"moving/export/frame_{frame:04}.obj")
     assert np.allclose(vertices(obj), state(frame), atol=1e-6), f"frame {frame} as .obj"
+    assert obj.data.has_custom_normals and all(p.use_smooth for p in obj.data.polygons), "normals of the .obj"
+    assert np.allclose(input_of(obj, "Base Color").default_value[:3], (0.72, 0.12, 0.08)), "colour of the .mtl"
+    assert math.isclose(input_of(obj, "Roughness").default_value, 0.35, abs_tol=1e-6), "roughness of the .mtl"
+    assert math.isclose(input_of(obj, "Specular").default_value, 0.5, abs_tol=1e-6), "specular of the .mtl"
     ply = imported(bpy.ops.import_mesh.ply, f"moving/export/frame_{frame:04}.ply")  # knows no axes
     x = np.array([v.co for v in ply.data.vertices])
     assert np.allclose(x, state(frame), atol=1e-6), f"frame {frame} as .ply"

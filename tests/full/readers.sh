@@ -135,6 +135,7 @@ assert png.spec().nchannels == 4, png.spec().nchannels
 PY
 exrheader comp/aov/multilayer/frame_0002.exr >exrheader.log || { cat exrheader.log; fail "exrheader"; }
 grep -q 'compression.*: zip, multi-scanline blocks' exrheader.log || { cat exrheader.log; fail "the .exr is not ZIP-compressed"; }
+grep -q 'framesPerSecond (type rational): 60/1' exrheader.log || { cat exrheader.log; fail "the .exr does not tell its frames a second"; }
 gmsh -check run/mesh.msh >gmsh.log 2>&1 || { cat gmsh.log; fail "Gmsh does not read mesh.msh"; }
 assimp info run/export/*.glb >assimp.log 2>&1 || { cat assimp.log; fail "Assimp does not read the .glb"; }
 grep -Eq '^Animations: +1$' assimp.log || { cat assimp.log; fail "Assimp sees no animation in the .glb"; }

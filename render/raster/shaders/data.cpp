@@ -62,6 +62,7 @@ layout(binding = 6) uniform usampler2D seen_samples;
 #ifdef PEEL
 layout(binding = 13) uniform sampler2D peeled;
 #endif
+uniform bool catches_shadows;  // the ground's part is put in later
 out float alpha;
 void main() {
   float covered = 0.0;
@@ -69,7 +70,8 @@ void main() {
     covered += texelFetch(seen_samples, ivec2(gl_FragCoord.xy), s).w != 0u ? 1.0 / float(SAMPLES) : 0.0;
   vec3 x;
   float depth;
-  float floor_part = ground.w > 0.5 && meet_ground(x, depth) ? 1.0 - ground_fade(x) : 0.0;
+  bool on_floor = !catches_shadows && ground.w > 0.5 && meet_ground(x, depth);
+  float floor_part = on_floor ? 1.0 - ground_fade(x) : 0.0;
   alpha = covered + (1.0 - covered) * floor_part;
 #ifdef PEEL
   alpha += (1.0 - alpha) * texelFetch(peeled, ivec2(gl_FragCoord.xy), 0).w;

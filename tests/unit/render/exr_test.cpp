@@ -141,11 +141,37 @@ TEST(Exr, OneFileHoldsThePictureAndAllChannels) {
 TEST(Exr, APartStandsWhereItIsInThePicture) {
   const Image image = image_of_all();
   const PartOfPicture part{7, 90, 640, 360};
-  EXPECT_EQ(read(encode_exr(*image.find(depth_channel), part), width, height, part)["Z"],
+  EXPECT_EQ(read(encode_exr(*image.find(depth_channel), {.part = part}), width, height, part)["Z"],
             component(image, depth_channel, 0));
-  Planes layers = read(encode_multilayer_exr(image, channel_names(), true, part), width, height, part);
+  Planes layers =
+      read(encode_multilayer_exr(image, channel_names(), true, {.part = part}), width, height, part);
   EXPECT_EQ(layers["normal.Y"], component(image, normal_channel, 1));
   EXPECT_EQ(layers["A"], component(image, alpha_channel, 0));
+}
+
+/// The rational of a file's framesPerSecond; 0/1 of one without.
+Imf::Rational fps_of(const std::string& bytes) {
+  Bytes stream(bytes);
+  const Imf::InputFile file(stream, 0);
+  return Imf::hasFramesPerSecond(file.header()) ? Imf::framesPerSecond(file.header()) : Imf::Rational(0, 1);
+}
+
+TEST(Exr, TellsTheFramesASecond) {
+  const Image image = image_of_all();
+  const Channel& depth = *image.find(depth_channel);
+  const auto expect_fps = [&](double fps, int n, unsigned d) {
+    for (const std::string& bytes :
+         {encode_exr(depth, {.fps = fps}), encode_multilayer_exr(image, {}, true, {.fps = fps})}) {
+      const Imf::Rational told = fps_of(bytes);
+      EXPECT_EQ(told.n, n) << fps;
+      EXPECT_EQ(told.d, d) << fps;
+    }
+  };
+  expect_fps(30.0, 30, 1);
+  expect_fps(12.5, 25, 2);
+  expect_fps(23.976, 24000, 1001);  // as film and video have it
+  expect_fps(60000.0 / 1001.0, 60000, 1001);
+  EXPECT_EQ(fps_of(encode_exr(depth)).n, 0) << "of no sequence";
 }
 
 TEST(Exr, TheSameValuesGiveTheSameBytes) {

@@ -115,8 +115,9 @@ TEST_F(ExportCommand, WritesTheDrawnSurface) {
   EXPECT_EQ(exported({"--format", "ply", "--frames", "2", "--fields", "von_mises", "-o",
                       at("ply").string()})["files"],
             Json::parse(R"(["frame_0002.ply"])"));
-  exported({"--format", "obj", "--frames", "2..3", "-o", at("obj").string()});
-  EXPECT_EQ(count_files(at("obj")), 2);
+  EXPECT_EQ(exported({"--format", "obj", "--frames", "2..3", "-o", at("obj").string()})["files"],
+            Json::parse(R"(["bar.mtl", "frame_0002.obj", "frame_0003.obj"])"));
+  EXPECT_EQ(count_files(at("obj")), 3);
   sim::Remarks remarks;
   const sim::TriMesh ply = sim::read_tri_mesh(at("ply/frame_0002.ply"), remarks);
   const sim::TriMesh obj = sim::read_tri_mesh(at("obj/frame_0002.obj"), remarks);

@@ -150,6 +150,27 @@ TEST(Caption, IsWrappedAtSpacesToThePicturesWidth) {
   EXPECT_GT(d.right, 580);
 }
 
+/// Titles of panels: as tall as they are wanted, smaller where they have no room, wrapped at the least size.
+TEST(Caption, IsAsTallAsItsLayoutWantsWhereThereIsRoom) {
+  const auto placed = [](const std::string& text) {
+    OverlayLayout layout(424, 358);
+    layout.set_caption_height(9.3);
+    const Caption caption = place_caption(layout, text, "top").value();
+    EXPECT_TRUE(is_within(caption.plate, 424, 358)) << text;
+    return caption;
+  };
+  const double least = OverlayLayout(424, 358).text_height();
+  EXPECT_EQ(placed("2 MPa").height, 9.3);
+  const Caption longer = placed(words(14));
+  EXPECT_EQ(longer.lines.size(), 1U);
+  EXPECT_GT(longer.height, least);
+  EXPECT_LT(longer.height, 9.0);
+  const Caption wrapped = placed(words(30));
+  EXPECT_EQ(wrapped.height, least);
+  EXPECT_GT(wrapped.lines.size(), 1U);
+  EXPECT_EQ(joined(wrapped.lines, " "), words(30));
+}
+
 TEST(Caption, IsNarrowerBesideWhatIsThere) {
   OverlayLayout layout(640, 360);
   layout.occupy({0, 0, 200, 360});

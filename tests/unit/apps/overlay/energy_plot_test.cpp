@@ -93,6 +93,48 @@ TEST(EnergyPlot, IsNotDrawnWhereThereIsNoRoom) {
   EXPECT_EQ(small.rgb, before.rgb);
 }
 
+/// Pixels of about a colour.
+int count_of(const render::Picture& p, int r, int g, int b) {
+  int count = 0;
+  for (std::size_t i = 0; i < p.rgb.size(); i += 3)
+    count += std::abs(p.rgb[i] - r) + std::abs(p.rgb[i + 1] - g) + std::abs(p.rgb[i + 2] - b) < 40 ? 1 : 0;
+  return count;
+}
+
+render::Picture plot_of(const EnergyAxes& shown) {
+  render::Picture picture{width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height, 128)};
+  draw_plot(picture, samples(21), shown, "top_left");
+  return picture;
+}
+
+TEST(EnergyPlot, DrawsOnlyTheCurvesThatAreAskedFor) {
+  EnergyAxes some = axes;
+  some.curves = {"elastic"};
+  const render::Picture all = plot_of(axes), one = plot_of(some);
+  EXPECT_GT(count_of(all, 86, 180, 233), 50) << "kinetic, with its sample in the legend";
+  EXPECT_EQ(count_of(one, 86, 180, 233), 0);
+  EXPECT_EQ(count_of(one, 64, 200, 150), 0) << "gravity";
+  EXPECT_GT(count_of(one, 230, 159, 0), 50) << "elastic";
+  some.curves = {"elastic", "kinetic"};
+  EnergyAxes other = some;
+  std::reverse(other.curves.begin(), other.curves.end());
+  EXPECT_EQ(plot_of(some).rgb, plot_of(other).rgb) << "the legend has its own order";
+}
+
+/// A curve that leaves the range is cut off there, not drawn along the border.
+TEST(EnergyPlot, AGivenRangeCutsCurvesOff) {
+  EnergyAxes given = {.time = {0.0, 2.0}, .energy = {0.0, 4.0}, .given = true, .curves = {"kinetic"}};
+  const int whole = count_of(plot_of(given), 86, 180, 233);  // 2 t, up to 4 J
+  given.energy = {0.0, 2.0};
+  const int half = count_of(plot_of(given), 86, 180, 233);  // leaves it after half the time
+  given.energy = {100.0, 200.0};
+  const int none = count_of(plot_of(given), 86, 180, 233);
+  EXPECT_GT(none, 0) << "of the legend";
+  EXPECT_LT(none, whole / 3);
+  EXPECT_LT(half, whole - 20);
+  EXPECT_GT(half, none + 20);
+}
+
 TEST(EnergyPlot, OneEnergyForAllTimeIsDrawn) {
   render::Picture picture{width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height, 128)};
   const render::Picture before = picture;

@@ -38,6 +38,18 @@ TEST(ItemBuffer, TheNearerIsSeenAndOfEqualOnesTheLast) {
   }
 }
 
+TEST(ItemBuffer, PeelsOneLayerAfterTheOther) {
+  ItemBuffer buffer(camera(false));
+  const std::vector<Triangle> three = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+  const std::vector<Vec3> x = {{-9, -9, 0}, {9, -9, 0},   {0, 9, 0},   {-9, -9, 1}, {9, -9, 1},
+                               {0, 9, 1},   {-9, -9, -1}, {9, -9, -1}, {0, 9, -1}};
+  for (const int item : {1, 0, 2, ItemBuffer::none}) {
+    buffer.draw(three, x);
+    EXPECT_EQ(buffer.item(40, 40), item);
+    buffer.peel();
+  }
+}
+
 /// The plane z = x through the middle, seen by both projections.
 TEST(ItemBuffer, DepthIsThatOfTheSurfaceAtTheSample) {
   const std::vector<Vec3> x = {{-2, -9, -2}, {2, -9, 2}, {0, 9, 0}};

@@ -67,6 +67,8 @@ TEST_F(ChannelsRun, AnotherFormatReplacesTheFiles) {
   EXPECT_TRUE(fs::exists(at("r") / "aov/normal/frame_0003.exr"));
   EXPECT_EQ(read_all(at("r") / "aov/depth/frame_0000.exr").substr(0, 4), "\x76\x2f\x31\x01");
   EXPECT_EQ(run_json("r")["frames"][0]["channels"].size(), 2U);
+  const std::string fps("framesPerSecond\0rational\0\x08\0\0\0\x1e\0\0\0\x01\0\0\0", 15 + 1 + 8 + 1 + 12);
+  EXPECT_NE(read_all(at("r") / "aov/depth/frame_0000.exr").find(fps), std::string::npos) << "30/1";
 
   expect(0, run("r", both + Arguments{"--set", "render.channel_format=exr_multilayer", "--force"}));
   EXPECT_EQ(channel_files("r"), 4);

@@ -180,5 +180,30 @@ TEST_F(SequenceOverlays, AreTheSameWholeResumedOrInShards) {
   EXPECT_EQ(tests::tree(at("apart")), before);
 }
 
+/// Records tell the axis, so that pictures of another are known.
+TEST_F(SequenceOverlays, TheDiagramHasTheRangeOfItsCurvesOrTheOneGiven) {
+  using tests::operator+;
+  expect(0, run("all", plot_));
+  expect(0, run("elastic", plot_ + tests::Arguments{"--set", "energy_plot.curves=['elastic']"}));
+  expect(0, run("given", plot_ + tests::Arguments{"--set", "energy_plot.range=[-1,2.5]"}));
+  const auto range = [&](const char* name) {
+    return run_json(name).at("frames").at(0).at("ranges").at("energy_plot.energy");
+  };
+  std::vector<double> elastic;
+  std::istringstream table(tests::read_all(at("all") / "energy.csv"));
+  for (std::string line; std::getline(table, line);) {
+    std::istringstream cells(line);
+    std::string cell;
+    for (int i = 0; i < 4; ++i) std::getline(cells, cell, ',');
+    if (cell != "elastic") elastic.push_back(std::stod(cell));
+  }
+  ASSERT_EQ(elastic.size(), 4U);
+  const auto [low, high] = std::minmax_element(elastic.begin(), elastic.end());
+  EXPECT_EQ(range("elastic"), (nlohmann::json{*low, *high}));
+  EXPECT_LT(range("all").at(0).get<double>(), *low + 1e-12);
+  EXPECT_GT(range("all").at(1).get<double>(), *high) << "the bar's weight";
+  EXPECT_EQ(range("given"), (nlohmann::json{-1.0, 2.5}));
+}
+
 }  // namespace glyphs_test
 }  // namespace lagomorph::apps

@@ -36,6 +36,17 @@ TEST_F(MovingCamera, IsTheSameInARunInPartsAndLater) {
   }
 }
 
+TEST_F(MovingCamera, ALensThatOnlyKeysHaveIsToldToBeLeftOut) {
+  const auto said = [&](const char* backend) {
+    return run_program({"run", data_file("run/bar.toml").string(), "-o", at(backend).string(), "--frames",
+                        "0", "--backend", backend, "--set",
+                        "camera.key=[{ frame = 0, f_stop = 0 }, { frame = 4, f_stop = 2 }]"})
+        .err;
+  };
+  EXPECT_NE(said("raster").find("raster: camera.f_stop: everything is drawn sharp\n"), std::string::npos);
+  EXPECT_EQ(said("path").find("drawn sharp"), std::string::npos);
+}
+
 /// RUN/scene.toml says all of the camera.
 TEST_F(MovingCamera, IsWhatTheRunSaysOfIt) {
   backend_ = "null";

@@ -161,6 +161,31 @@ TEST(Overlays, FaceOrientationTellsOutsideFromInside) {
             "body.0.surface.face_orientation has no effect: the surface of 'bar' is not drawn");
 }
 
+/// A closed surface of opacity 1/2 shows half of its outside and a quarter of the inside of its back.
+TEST(Overlays, FaceOrientationIsSeenAsMuchAsTheSurfaceIsOpaque) {
+  const char* const on = "body.0.surface.face_orientation=true";
+  const std::vector<std::string> half = {on, "body.0.look.opacity=0.5"};
+  const auto middle = [](const render::Picture& p) {  // of the bar
+    const std::size_t at =
+        3 * (static_cast<std::size_t>(p.height / 2 + 10) * static_cast<std::size_t>(p.width) +
+             static_cast<std::size_t>(p.width / 2));
+    return std::array<int, 3>{p.rgb[at], p.rgb[at + 1], p.rgb[at + 2]};
+  };
+  EXPECT_EQ(middle(Bar({on}).picture()), (std::array{40, 90, 255})) << "over white";
+  // 1/4 white, 1/2 blue, 1/4 red, but for rounding.
+  const std::array<int, 3> seen = middle(Bar(half).picture());
+  const std::array<double, 3> expected = {0.25 * 255 + 0.5 * 40 + 0.25 * 255,
+                                          0.25 * 255 + 0.5 * 90 + 0.25 * 40,
+                                          0.25 * 255 + 0.5 * 255 + 0.25 * 40};
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], expected[c], 1.5) << c;
+  // Behind another see-through body that does not tell its own: a quarter of what it is alone.
+  const std::string front = "body.1={ name = 'front', mesh = '" + tests::data_file("run/bar.msh").string() +
+                            "', translate = [0, 0, 0.5], look = { opacity = 0.5 } }";
+  const std::array<int, 3> behind = middle(Bar({on, front}).picture());
+  const std::array<double, 3> through = {255 + 0.25 * (40 - 255), 255 + 0.25 * (90 - 255), 255};
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(behind[c], through[c], 1.5) << c;
+}
+
 TEST(Overlays, AClipLeavesWholeTetsAndColorsTheCut) {
   const Bar whole({"body.0.surface.mesh=''"});
   const Bar cut({"clip={ point = [0, 0.3, 0], normal = [0, -1, 0], color = [1, 0.5, 0] }"});

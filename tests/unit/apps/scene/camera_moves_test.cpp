@@ -189,7 +189,9 @@ TEST(CameraMoves, WrongKeysAreTold) {
             "a.toml:1:1: camera.key.0 says nothing; give position, look_at, up, fov, orthographic, zoom, "
             "focus_distance or f_stop");
   EXPECT_EQ(error_of(key + "time = 1\nfov = 20\n" + key + "frame = 30\nfov = 25"),
-            "a.toml:4:1: camera.key.1 must be later than the one before it");
+            "a.toml:4:1: camera.key.1 is at 1 s and must be later than camera.key.0, at 1 s");
+  EXPECT_EQ(error_of(key + "frame = 30\nfov = 20\n" + key + "time = 0.5\nfov = 25"),
+            "a.toml:4:1: camera.key.1 is at 0.5 s and must be later than camera.key.0, at 1 s");
   EXPECT_EQ(error_of(key + "time = 1\northographic = 2"),
             "a.toml:1:1: camera.key.0 has an orthographic height, but camera.orthographic is not given");
   EXPECT_EQ(error_of("[camera]\northographic = 1\n" + key + "time = 1\nfov = 2"),

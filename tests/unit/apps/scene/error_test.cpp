@@ -170,6 +170,14 @@ TEST(WrongScene, Together) {
        Wrong{"[render]\nchannels = ['normal', 'position']\nchannel_format = 'png'",
              "a.toml:2:12: render.channels: 'position' has values that a PNG does not hold; give "
              "render.channel_format = \"npy\" or \"exr\""},
+       Wrong{"[energy_plot]\nrange = [2, 2]",
+             "a.toml:2:9: energy_plot.range = [2, 2]: the first must be less than the second"},
+       Wrong{"[energy_plot]\ncurves = []",
+             "a.toml:2:10: energy_plot.curves is empty; give some of kinetic, elastic, gravitational, total"},
+       Wrong{
+           "[energy_plot]\ncurves = ['kinetik']",
+           "a.toml:2:11: unknown energy_plot.curves.0 'kinetik'; did you mean 'kinetic'? Known are kinetic, "
+           "elastic, gravitational, total"},
        Wrong{"[ground]\nradius = 2",
              "a.toml:2:10: ground.fade_start = 3 must be less than ground.radius = 2"},
        Wrong{"[[light]]\nposition = [1, 1, 1]\nlook_at = [1, 1, 1]",

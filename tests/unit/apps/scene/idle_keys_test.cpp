@@ -38,6 +38,12 @@ TEST(IdleKeys, OfTheCamera) {
   EXPECT_EQ(idle("[camera]\nmargin = 0.1\n[[panel]]\n[[panel]]\nframe = \"rest\""), Lines{}) << "of a panel";
   EXPECT_EQ(idle("[camera]\nblades = 6\nfocus_distance = 2\n[render]\nbackend = \"path\""),
             Lines{"camera.focus_distance, camera.blades have no effect: camera.f_stop is 0"});
+  EXPECT_EQ(idle("[camera]\nblades = 6\nsensor_height = 0.03"),
+            Lines{"camera.sensor_height, camera.blades have no effect: camera.f_stop is 0"})
+      << "by the rasterizer, too";
+  EXPECT_EQ(idle("[camera]\nkey = [{ frame = 0, focus_distance = 2 }]"),
+            Lines{"camera.key.0.focus_distance has no effect: camera.f_stop is 0"});
+  EXPECT_EQ(idle("[camera]\nkey = [{ frame = 0, focus_distance = 2 }, { frame = 9, f_stop = 2 }]"), Lines{});
 }
 
 TEST(IdleKeys, OfALensWithoutPerspective) {
@@ -67,6 +73,19 @@ TEST(IdleKeys, OfGlyphsOfNothing) {
   EXPECT_EQ(idle("[glyphs]\npins = true"), Lines{"glyphs.pins has no effect: no body has a pin"});
   const std::string held = "[glyphs]\npins = true\n[[body]]\nmesh = \"a.msh\"\npin = [{ top = 0.1 }]";
   EXPECT_EQ(idle_keys(parse_scene(held, "a.toml", {})), Lines{});
+}
+
+TEST(IdleKeys, OfADiagramThatIsNotShown) {
+  const std::string plot = "[energy_plot]\nplace = \"top\"\nrange = [0, 1]\n";
+  EXPECT_EQ(idle(plot),
+            Lines{"energy_plot.place, energy_plot.range have no effect: energy_plot.show is false"});
+  EXPECT_EQ(idle(plot + "show = true"), Lines{});
+}
+
+TEST(IdleKeys, OfAShadowCatcherInOpaquePictures) {
+  EXPECT_EQ(idle("[ground]\nshadow_catcher = true"),
+            Lines{"ground.shadow_catcher has no effect: render.transparent is false"});
+  EXPECT_EQ(idle("[ground]\nshadow_catcher = true\n[render]\ntransparent = true"), Lines{});
 }
 
 TEST(IdleKeys, OfPanels) {

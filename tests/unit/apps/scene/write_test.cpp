@@ -197,6 +197,8 @@ void settle(SceneDesc& s, RandomFill& random) {
     for (sim::SpringSettings& spring : b.physics.spring) spring.vertices.push_back(3);
   }
   settle_views(s, random);
+  s.energy_plot.curves.emplace_back("total");
+  if (s.energy_plot.range) s.energy_plot.range = {-1.0, 2.5};
   s.ground.fade_start = 0.3F * s.ground.radius;
 }
 
