@@ -88,7 +88,7 @@ vec4 radiance_from_below(vec3 x, vec3 n) {
   if (ground.w < 0.5 || height < 0.0) return vec4(horizon.rgb, 1.0);
 #endif
   float level = log2(max(0.75 * height / ground_map.y, 1.0));
-  vec3 bounce = textureLod(ground_bounce, ground_map_at(x + 1.0 * height * vec3(n.x, 0.0, n.z)), level).rgb;
+  vec3 bounce = textureLod(ground_bounce, ground_map_at(x + 0.7 * height * vec3(n.x, 0.0, n.z)), level).rgb;
   float reach = 0.5 * (ground.y + ground.z);
   float part = reach * reach / (reach * reach + height * height);
 #ifdef SKY_MAP
