@@ -30,4 +30,5 @@ forces 60 raster - 960x540
 turntable 100 raster - 640x360
 side_by_side 16 raster - 640x360
 ears 36 path 1024 640x360
+mirrors 9 raster - 640x360
 SCENES

@@ -20,8 +20,8 @@ constexpr int most_surfaces = 16;         // that a ray meets
 constexpr float least_share = 0.02F;      // of the light, of one of two rays for both to go on
 constexpr float least_late_share = 0.1F;  // likewise at later surfaces
 constexpr int late = 3;
-constexpr int fewest_rays = 4;        // a pixel
-constexpr float most_of_lamp = 2.0F;  // in one of more rays
+constexpr int fewest_rays = 4, most_rays = 16;  // a pixel
+constexpr float most_of_lamp = 2.0F;            // in one of more rays
 
 /// Of n, sample k of a pixel: a rotated grid of 4, or of 16.
 Vec2 sample_place(int k, int n) {
@@ -33,7 +33,7 @@ Vec2 sample_place(int k, int n) {
   return {coarse[0] + 0.25F * (fine[0] - 0.5F), coarse[1] + 0.25F * (fine[1] - 0.5F)};
 }
 
-int rays_a_pixel(float alpha) { return alpha > rough_alpha ? 4 * fewest_rays : fewest_rays; }
+int rays_a_pixel(float alpha) { return alpha > rough_alpha ? most_rays : fewest_rays; }
 
 /// A square of the picture. All rays of a depth are traced together.
 class RayTile {
@@ -45,6 +45,7 @@ public:
         pictures_(pictures),
         at_(at),
         samples_(samples),
+        is_rough_(samples > fewest_rays),
         light_(static_cast<std::size_t>(at.width) * static_cast<std::size_t>(at.height), Color::Zero()),
         numbers_(0, 0, samples) {}
 
@@ -99,7 +100,7 @@ private:
   /// What a rough surface spreads a bright lamp into would be grains.
   void add_light(const Path& p, const Color& radiance) {
     const Color light = p.share * radiance;
-    light_[p.pixel] += samples_ > fewest_rays ? Color(light.min(most_of_lamp)) : light;
+    light_[p.pixel] += is_rough_ ? Color(light.min(most_of_lamp)) : light;
   }
 
   void begin() {
@@ -261,6 +262,7 @@ private:
   const DrawnPictures& pictures_;
   PixelRectangle at_;  // y from the top
   int samples_;
+  bool is_rough_;  // rays are spread
   std::vector<Color> light_;
   path::FrameSamples numbers_;
   std::vector<Path> paths_, next_;
@@ -296,7 +298,7 @@ void add_by_rays(const RayScene& scene, const Camera& camera, const DrawnPicture
 
 void add_mirrored_by_ground(const RayScene& scene, const Camera& camera, const DrawnPictures& pictures,
                             const PixelRectangle& rectangle, std::span<float> color) {
-  for_tiles(scene, camera, pictures, rectangle, rays_a_pixel(scene.ground_alpha()), color,
+  for_tiles(scene, camera, pictures, rectangle, scene.ground_alpha() > 0.0F ? most_rays : fewest_rays, color,
             [](RayTile& tile) { tile.see_in_ground(); });
 }
 
