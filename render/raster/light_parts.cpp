@@ -12,7 +12,6 @@ namespace {
 constexpr float widest_part = 0.15F;  // of the distance from the nearest mesh
 // Of a sun's distance from all: the shadows of any body may fall on any other, however far behind.
 constexpr float widest_part_of_suns = 0.06F;
-constexpr int most_parts = 6;  // along a side
 
 /// From the light's middle to the nearest triangle's box of those that the light shines on; infinite if none.
 float nearest_mesh(const AreaLight& light, std::span<const Mesh> meshes) {
@@ -35,7 +34,7 @@ float nearest_mesh(const AreaLight& light, std::span<const Mesh> meshes) {
 
 /// Along a side of so much, no part wider than `widest`.
 int parts_along(float side, float widest) {
-  return static_cast<int>(std::clamp(std::ceil(side / widest), 1.0F, static_cast<float>(most_parts)));
+  return static_cast<int>(std::clamp(std::ceil(side / widest), 1.0F, static_cast<float>(most_parts_along)));
 }
 
 }  // namespace

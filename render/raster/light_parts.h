@@ -7,6 +7,8 @@
 
 namespace lagomorph::render::raster {
 
+constexpr int most_parts_along = 6;  // a side
+
 /// The equal rectangles that a light is seen as: a depth map from its middle knows only what hides that, and
 /// of what hides it only a mean distance, which does for what is small beside its distance from the meshes.
 struct LightSplit {

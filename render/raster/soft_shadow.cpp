@@ -4,33 +4,59 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "render/raster/light_parts.h"
 #include "render/raster/light_visibility.h"
 #include "render/simd.h"
 
 namespace lagomorph::render::raster {
 namespace {
 
-/// A value a pixel, with a border of one.
+/// Pixels [left, right) x [lower, upper), whole blocks.
+struct Bounds {
+  int left = 0, right = 0, lower = 0, upper = 0;
+};
+
+/// Around the blocks that have something in them.
+Bounds bounds_of(const ReceiverBlocks& at) {
+  Bounds b{at.width(), 0, at.height(), 0};
+  at.for_each([&](int x, int y, const Receivers&) {
+    b.left = std::min(b.left, x), b.right = std::max(b.right, x + block_width);
+    b.lower = std::min(b.lower, y), b.upper = std::max(b.upper, y + block_height);
+  });
+  return b;
+}
+
+/// A value for each of those pixels, with a border of one. Places are those of the whole.
 class Plane {
 public:
-  Plane(int width, int height, float value)
-      : stride_(static_cast<std::size_t>(width) + 2),
-        values_(stride_ * (static_cast<std::size_t>(height) + 2), value) {}
+  Plane(const Bounds& at, float value)
+      : at_(at),
+        stride_(at.right - at.left + 2),
+        values_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(at.upper - at.lower + 2),
+                value) {}
 
-  float* row(int y) { return values_.data() + stride_ * static_cast<std::size_t>(y + 1) + 1; }
-  const float* row(int y) const { return values_.data() + stride_ * static_cast<std::size_t>(y + 1) + 1; }
+  /// Pixel x of the row is at [x - left()].
+  float* row(int y) { return values_.data() + place(y); }
+  const float* row(int y) const { return values_.data() + place(y); }
+  int left() const { return at_.left; }
   void put(int x, int y, const Lanes& from) {
     for (int lane = 0; lane < lanes; ++lane)
-      row(y + raster::row(lane))[x + column(lane)] = from[static_cast<std::size_t>(lane)];
+      row(y + raster::row(lane))[x - at_.left + column(lane)] = from[static_cast<std::size_t>(lane)];
   }
   void get(int x, int y, Lanes& to) const {
     for (int lane = 0; lane < lanes; ++lane)
-      to[static_cast<std::size_t>(lane)] = row(y + raster::row(lane))[x + column(lane)];
+      to[static_cast<std::size_t>(lane)] = row(y + raster::row(lane))[x - at_.left + column(lane)];
   }
 
 private:
-  std::size_t stride_;
+  std::ptrdiff_t place(int y) const { return stride_ * (y - at_.lower + 1) + 1; }
+
+  Bounds at_;
+  std::ptrdiff_t stride_;
   std::vector<float> values_;
 };
 
@@ -63,32 +89,29 @@ LAGOMORPH_RENDER_SIMD void add_neighbours(const Rows& depth, const float* tolera
   }
 }
 
-/// Pixels [first, last) of each row that are in blocks with something in them; none where last is 0.
+/// Pixels [first, last) of each row, from the left bound, that are in blocks with something in them.
 struct Span {
   int first = 0, last = 0;
 };
-std::vector<Span> spans_of(const ReceiverBlocks& at) {
-  std::vector<Span> spans(static_cast<std::size_t>(at.height()));
-  for (int k = 0; k < at.rows * at.columns; ++k) {
-    if (at.empty[static_cast<std::size_t>(k)] != 0) continue;
-    const int x = k % at.columns * block_width, y = k / at.columns * block_height;
+std::vector<Span> spans_of(const ReceiverBlocks& at, const Bounds& bounds) {
+  std::vector<Span> spans(static_cast<std::size_t>(bounds.upper - bounds.lower));
+  at.for_each([&](int x, int y, const Receivers&) {
     for (int row = y; row < y + block_height; ++row) {
-      Span& span = spans[static_cast<std::size_t>(row)];
-      if (span.last == 0) span.first = x;
-      span.last = x + block_width;
+      Span& span = spans[static_cast<std::size_t>(row - bounds.lower)];
+      if (span.last == 0) span.first = x - bounds.left;
+      span.last = x - bounds.left + block_width;
     }
-  }
+  });
   return spans;
 }
 
 constexpr float unlike_all = -3e9F;
 
-/// Of a part of a light, which soft_shadow() puts together.
-void shadow_of_part(const DepthMaps& maps, std::size_t part, const ReceiverBlocks& at, float spacing,
-                    std::vector<float>& seen) {
-  const int width = at.width(), height = at.height();
-  Plane depth(width, height, unlike_all), tolerance(width, height, 0.0F), nearness(width, height, 0.0F),
-      taps(width, height, 0.0F);
+/// Of a part of a light, which soft_shadow() puts together; nothing where all is seen.
+std::optional<Plane> shadow_of_part(const DepthMaps& maps, std::size_t part, const ReceiverBlocks& at,
+                                    const Bounds& bounds) {
+  const auto spacing = static_cast<float>(at.step);
+  Plane depth(bounds, unlike_all), tolerance(bounds, 0.0F), nearness(bounds, 0.0F), taps(bounds, 0.0F);
   bool any_blocked = false;
   at.for_each([&](int x, int y, const Receivers& r) {
     Blockers found;
@@ -101,16 +124,19 @@ void shadow_of_part(const DepthMaps& maps, std::size_t part, const ReceiverBlock
     taps.put(x, y, found.taps);
     any_blocked |= std::any_of(found.taps.begin(), found.taps.end(), [](float t) { return t > 0.0F; });
   });
-  seen.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 1.0F);
-  if (!any_blocked) return;
-  const std::vector<Span> spans = spans_of(at);
-  Plane shared_nearness(width, height, 0.0F), shared_taps(width, height, 0.0F);
-  for (int y = 0; y < height; ++y) {
-    const Span span = spans[static_cast<std::size_t>(y)];
+  if (!any_blocked) return std::nullopt;
+  const std::vector<Span> spans = spans_of(at, bounds);
+  const auto for_rows = [&](const auto& row) {
+    for (int y = bounds.lower; y < bounds.upper; ++y)
+      row(y, spans[static_cast<std::size_t>(y - bounds.lower)]);
+  };
+  Plane shared_nearness(bounds, 0.0F), shared_taps(bounds, 0.0F);
+  for_rows([&](int y, const Span& span) {
     add_neighbours({depth, y}, tolerance.row(y), {nearness, y}, {taps, y}, span.first, span.last,
                    shared_nearness.row(y), shared_taps.row(y));
-  }
-  Plane blocked(width, height, 0.0F), share(width, height, 0.0F);
+  });
+  Plane& blocked = nearness;  // their room
+  Plane& share = taps;
   at.for_each([&](int x, int y, const Receivers& r) {
     Blockers found;
     shared_nearness.get(x, y, found.nearness);
@@ -120,19 +146,47 @@ void shadow_of_part(const DepthMaps& maps, std::size_t part, const ReceiverBlock
     blocked.put(x, y, shadow.blocked);
     share.put(x, y, shadow.share);
   });
-  const Plane one(width, height, 1.0F);
-  std::vector<float> sum(static_cast<std::size_t>(width)), count(sum.size());
-  for (int y = 0; y < height; ++y) {
-    const Span span = spans[static_cast<std::size_t>(y)];
-    add_neighbours({depth, y}, tolerance.row(y), {blocked, y}, {one, y}, span.first, span.last, sum.data(),
-                   count.data());
+  const Plane one(bounds, 1.0F);
+  Plane &sum = shared_nearness, &count = shared_taps;
+  for_rows([&](int y, const Span& span) {
+    add_neighbours({depth, y}, tolerance.row(y), {blocked, y}, {one, y}, span.first, span.last, sum.row(y),
+                   count.row(y));
+  });
+  for_rows([&](int y, const Span& span) {
+    float* const seen = sum.row(y);
     for (int x = span.first; x < span.last; ++x) {
-      const auto i = static_cast<std::size_t>(x);
       const float alone = blocked.row(y)[x];
-      const float mean = count[i] > 0.0F ? sum[i] / count[i] : alone;
-      seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + i] =
-          1.0F - (alone + share.row(y)[x] * (mean - alone));
+      const float mean = count.row(y)[x] > 0.0F ? seen[x] / count.row(y)[x] : alone;
+      seen[x] = 1.0F - (alone + share.row(y)[x] * (mean - alone));
     }
+  });
+  return std::move(sum);
+}
+
+/// Of all parts, by what each gives.
+void put_together(const FrameBlock& frame, const DepthMaps& maps, const LightParts& parts,
+                  const std::vector<std::optional<Plane>>& of_parts, const Receivers& r, int x, int y,
+                  Lanes& seen) {
+  std::array<Lanes, most_parts_along * most_parts_along> part_seen;
+  bool any_hidden = parts.below_ground && !r.is_ground;
+  for (std::size_t k = 0; k < parts.count; ++k) {
+    part_seen[k].fill(1.0F);
+    if (of_parts[k]) of_parts[k]->get(x, y, part_seen[k]);
+    any_hidden |= std::any_of(part_seen[k].begin(), part_seen[k].end(), [](float s) { return s < 1.0F; });
+  }
+  seen.fill(1.0F);
+  if (!any_hidden) return;
+  Lanes given{}, arriving{};
+  for (std::size_t k = 0; k < parts.count; ++k) {
+    PartLight light;
+    light_of_part(frame, maps.parts[parts.first + k].light, r, light);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      given[l] += light.whole[l];
+      arriving[l] += light.past_ground[l] * part_seen[k][l];
+    }
+  }
+  for (std::size_t l = 0; l < lanes; ++l) {
+    if (given[l] > 0.0F) seen[l] = arriving[l] / given[l];
   }
 }
 
@@ -141,41 +195,26 @@ void shadow_of_part(const DepthMaps& maps, std::size_t part, const ReceiverBlock
 void soft_shadow(const FrameBlock& frame, const DepthMaps& maps, int light, const ReceiverBlocks& at,
                  std::vector<float>& seen) {
   const LightParts& parts = maps.lights[static_cast<std::size_t>(light)];
-  if (parts.count == 1 && !parts.below_ground) {
-    shadow_of_part(maps, parts.first, at, static_cast<float>(at.step), seen);
-    return;
-  }
-  std::vector<std::vector<float>> of_parts(parts.count);
-  for (std::size_t k = 0; k < parts.count; ++k)
-    shadow_of_part(maps, parts.first + k, at, static_cast<float>(at.step), of_parts[k]);
   const auto width = static_cast<std::size_t>(at.width());
   seen.assign(width * static_cast<std::size_t>(at.height()), 1.0F);
+  const Bounds bounds = bounds_of(at);
+  if (bounds.right <= bounds.left) return;
+  std::vector<std::optional<Plane>> of_parts;
+  of_parts.reserve(parts.count);
+  for (std::size_t k = 0; k < parts.count; ++k)
+    of_parts.push_back(shadow_of_part(maps, parts.first + k, at, bounds));
+  const bool alone = parts.count == 1 && !parts.below_ground;
+  if (alone && !of_parts[0]) return;
   at.for_each([&](int x, int y, const Receivers& r) {
-    const auto pixel = [&](int lane) {
-      return static_cast<std::size_t>(y + row(lane)) * width + static_cast<std::size_t>(x + column(lane));
-    };
-    const bool may_be_below_ground = parts.below_ground && !r.is_ground;
-    if (!may_be_below_ground &&
-        std::all_of(of_parts.begin(), of_parts.end(), [&](const std::vector<float>& of_part) {
-          for (int lane = 0; lane < lanes; ++lane) {
-            if (of_part[pixel(lane)] < 1.0F) return false;
-          }
-          return true;
-        }))
-      return;
-    Lanes given{}, arriving{};
-    for (std::size_t k = 0; k < parts.count; ++k) {
-      PartLight light;
-      light_of_part(frame, maps.parts[parts.first + k].light, r, light);
-      for (int lane = 0; lane < lanes; ++lane) {
-        const auto l = static_cast<std::size_t>(lane);
-        given[l] += light.whole[l];
-        arriving[l] += light.past_ground[l] * of_parts[k][pixel(lane)];
-      }
+    Lanes of_block;
+    if (alone) {
+      of_parts[0]->get(x, y, of_block);
+    } else {
+      put_together(frame, maps, parts, of_parts, r, x, y, of_block);
     }
     for (int lane = 0; lane < lanes; ++lane) {
-      const auto l = static_cast<std::size_t>(lane);
-      if (given[l] > 0.0F) seen[pixel(lane)] = arriving[l] / given[l];
+      seen[static_cast<std::size_t>(y + row(lane)) * width + static_cast<std::size_t>(x + column(lane))] =
+          of_block[static_cast<std::size_t>(lane)];
     }
   });
 }
