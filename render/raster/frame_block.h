@@ -61,6 +61,7 @@ struct FrameBlock {
   Vec4 sky_map;         // xyz centre [m], w 1 / radius of the meshes' sphere [1/m]
   Vec4 counts;          // lights, 0, 1 where there are meshes, size of the ground map
   Vec4 sky_picture;     // of a map: turns of its middle from -z, level of detail at a pixel, strength
+  Vec4 mesh_albedo;     // rgb, the mean of the meshes'
   std::array<LightBlock, most_lights> lights;
   std::array<SkyDirectionBlock, most_sky_directions> sky;
 };

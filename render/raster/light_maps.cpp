@@ -5,8 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "render/albedo.h"
 #include "render/raster/caster_depths.h"
 #include "render/raster/light_view.h"
+#include "render/raster/optics_stand_in.h"
+#include "render/raster/ray_scene.h"
 #include "render/raster/shaders/shaders.h"
 #include "render/raster/sky_light.h"
 #include "render/raster/sky_model.h"
@@ -70,6 +73,21 @@ Sphere bounding_sphere(std::span<const std::vector<Vec3>> positions, const Eigen
   }
   sphere.radius = step * std::ceil(std::sqrt(radius) / step + 0.1F);
   return sphere;
+}
+
+/// The mean albedo of what hides the sky from the ground.
+Color hiding_albedo(const RenderScene& scene) {
+  Color sum = Color::Zero();
+  float weights = 1e-6F;
+  for (const Mesh& mesh : scene.meshes) {
+    const Material& m = mesh.material;
+    float weight = m.opacity;
+    if (drawn_by_rays(scene, mesh).behind)
+      weight -= light_through(m, mean_chord(mesh.positions, mesh.triangles));
+    sum += weight * albedo(m);
+    weights += weight;
+  }
+  return sum / weights;
 }
 
 }  // namespace
@@ -136,6 +154,7 @@ void LightMaps::set_scene(const RenderScene& given, const RenderScene& scene, co
   block.zenith = vec4(Color(scene.sky.strength * scene.sky.zenith), 0.0F);
   block.horizon = vec4(Color(scene.sky.strength * scene.sky.horizon), 0.0F);
   block.background = scene.background ? vec4(*scene.background, 1.0F) : Vec4::Zero();
+  block.mesh_albedo = vec4(hiding_albedo(given), 0.0F);
   const Ground& g = scene.ground;
   block.ground = Vec4(g.height, g.radius, g.fade_start, 0.0F);
   show_ground(g.enabled, block);

@@ -61,7 +61,8 @@ LAGOMORPH_INLINE float from_half(std::uint16_t half) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(half) << 13U) * 0x1p112F;
 }
 
-LAGOMORPH_RENDER_SIMD void take(const TakenRow& r, const Color& open_sky, const Color& below) {
+LAGOMORPH_RENDER_SIMD void take(const TakenRow& r, const Color& open_sky, const Color& below,
+                                const Color& of_meshes) {
   alignas(64) std::array<std::array<float, most_pixels>, most_lights> hidden;
   alignas(64) std::array<float, most_pixels> taken;
   const auto count = static_cast<std::size_t>(r.count);
@@ -71,29 +72,28 @@ LAGOMORPH_RENDER_SIMD void take(const TakenRow& r, const Color& open_sky, const 
         hidden[i][x] = 1.0F - static_cast<float>(r.lit[x][i]) * (1.0F / 65535.0F);
     }
   }
-  const std::uint16_t* white = r.planes + 3 * r.plane;
   for (std::size_t c = 0; c < 3; ++c) {
     const std::uint16_t* diffuse = r.planes + c * r.plane;
-    const std::uint16_t* mirrored = r.planes + (4 + c) * r.plane;
+    const std::uint16_t* mirrored = r.planes + (3 + c) * r.plane;
     const float* seen = r.seen[c];
     const float open = open_sky[static_cast<Eigen::Index>(c)], up = below[static_cast<Eigen::Index>(c)];
     const float all = open + up;
     // ambient_light() of the shaders.
-    const auto ambient = [=](float part, float sent, float of_white) {
-      const float albedo = sent / std::max(of_white, 1e-6F);
+    const float albedo = of_meshes[static_cast<Eigen::Index>(c)];
+    const auto ambient = [=](float part) {
       const float turned = open * (1.0F - part) / (all + 1e-6F);
       return (open * part + up) / std::max(1.0F - turned * albedo, 0.05F);
     };
-    const std::uint16_t* mesh = r.planes + (7 + 3 * static_cast<std::size_t>(r.lights) + c) * r.plane;
+    const std::uint16_t* mesh = r.planes + (6 + 3 * static_cast<std::size_t>(r.lights) + c) * r.plane;
     for (std::size_t x = 0; x < count; ++x) {
       const float sent = from_half(diffuse[x]), part = seen[x];
-      const float light = ambient(part, sent, from_half(white[x]));
+      const float light = ambient(part);
       taken[x] = sent * (all - light) +
                  r.mirrored * (1.0F - part) * (from_half(mirrored[x]) - light * from_half(mesh[x]));
     }
     if (r.lit != nullptr) {
       for (std::size_t i = 0; i < static_cast<std::size_t>(r.lights); ++i) {
-        const std::uint16_t* light = r.planes + (7 + 3 * i + c) * r.plane;
+        const std::uint16_t* light = r.planes + (6 + 3 * i + c) * r.plane;
         for (std::size_t x = 0; x < count; ++x) taken[x] += hidden[i][x] * from_half(light[x]);
       }
     }
@@ -151,6 +151,8 @@ void take_run(const FrameBlock& frame, const StillParts& still, const GroundSeen
                                               static_cast<int>(run.right - run.left), tile_size},
                                              drawn);
   const SeenCells cells(frame, map, run);
+  const Vec4& meshes = frame.mesh_albedo;
+  const Color albedo(meshes.x(), meshes.y(), meshes.z());
   std::array<std::vector<float>, 3> seen;
   for (int y = at.y; y < at.y + at.height; ++y) {
     cells.row(y - static_cast<int>(run.lower), seen);
@@ -172,7 +174,7 @@ void take_run(const FrameBlock& frame, const StillParts& still, const GroundSeen
       row.color = color.data() + 3 * (static_cast<std::size_t>(still.height - 1 - y) *
                                           static_cast<std::size_t>(still.width) +
                                       static_cast<std::size_t>(x));
-      take(row, still.open, still.from_below);
+      take(row, still.open, still.from_below, albedo);
     }
   }
 }

@@ -19,7 +19,7 @@ struct StillParts {
   int lights = 0;
   std::vector<float> picture;  // linear colour, interleaved
   /// Half floats, a plane each, in the order of still_fragment's outputs: red, green, blue of what the sky's
-  /// light becomes, the same of a white ground; three colours of the sky mirrored, of each light, and of
+  /// light becomes, of the sky mirrored, of each light, and of
   /// the mirrored mesh.
   std::unique_ptr<std::uint16_t[]> planes;                 // of the tiles that were asked for
   Color open = Color::Zero(), from_below = Color::Zero();  // irradiance of the ground with nothing before it
@@ -28,7 +28,7 @@ struct StillParts {
   std::size_t part_count() const {
     return 3 + static_cast<std::size_t>(lights);
   }  // of still_fragment's parts
-  std::size_t plane_count() const { return 1 + 3 * part_count(); }
+  std::size_t plane_count() const { return 3 * part_count(); }
 };
 
 /// The part of the sky that the ground's map sees, rows from below: three colours a texel.

@@ -153,8 +153,7 @@ void StillPicture::draw_cells() {
     float* plane = planes.data();
     for (std::size_t part = 0; part < 1 + still_.part_count(); ++part) {
       read_attachment(part, 0, to.width, to.height, GL_FLOAT, values_.data());
-      const std::size_t channels = part == 1 ? 4 : 3;
-      for (std::size_t c = 0; c < channels; ++c) {
+      for (std::size_t c = 0; c < 3; ++c) {
         for (std::size_t k = 0; k < count; ++k) plane[k] = values_[4 * k + c];
         plane += count;
       }
@@ -262,11 +261,10 @@ void StillPicture::read_tiles(std::span<const int> numbers) {
   std::uint16_t* plane = still_.planes.get();
   for (std::size_t part = 0; part < still_.part_count(); ++part) {
     read_attachment(1 + part, 0, width, height, GL_HALF_FLOAT, halves_.data());
-    const std::size_t channels = part == 0 ? 4 : 3;
     for_pixels([&](std::size_t from, std::size_t to) {
-      for (std::size_t c = 0; c < channels; ++c) plane[c * still_.pixels() + to] = halves_[4 * from + c];
+      for (std::size_t c = 0; c < 3; ++c) plane[c * still_.pixels() + to] = halves_[4 * from + c];
     });
-    plane += channels * still_.pixels();
+    plane += 3 * still_.pixels();
   }
   for (const int number : numbers) has_planes_[static_cast<std::size_t>(number)] = 1;
 }

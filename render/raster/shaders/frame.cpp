@@ -25,6 +25,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 sky_map;
   vec4 counts;
   vec4 sky_picture;
+  vec4 mesh_albedo;
   Light lights[4];
   SkyDirection sky_directions[16];
 };

@@ -48,7 +48,7 @@ vec3 ground_normal(vec3 v) { return vec3(0.0, v.y > 0.0 ? 1.0 : -1.0, 0.0); }
 // colour.
 const char* const still_fragment = R"(
 layout(location = 0) out vec4 picture;   // CELLS: what the ground sends; w 1 where it is met
-layout(location = 1) out vec4 diffuse;   // what the sky's light on the ground becomes; w: of a white ground
+layout(location = 1) out vec4 diffuse;   // what the sky's light on the ground becomes
 layout(location = 2) out vec4 mirrored;  // of the sky
 #if LIGHTS > 0
 layout(location = 3) out vec4 lit[LIGHTS];
@@ -103,7 +103,7 @@ void main() {
 #else
   picture.rgb = (1.0 - part) * picture.rgb + sent;
 #endif
-  diffuse = min(part / PI * vec4(finish.out_of_base * finish.coat.diffuse + finish.multiple, finish.out_of_base), most);
+  diffuse.rgb = min(part / PI * (finish.out_of_base * finish.coat.diffuse + finish.multiple), most);
   mirrored.rgb = min(part * finish.mirrors * sky.mirrored, most);
   mirrored_mesh.rgb = min(part * finish.mirrors * sky.mirrored_mesh, most);
 }
@@ -179,7 +179,7 @@ void main() {
   vec3 x = vec3((at.x - ground_map.z) / ground_map.x, ground.x, (at.y - ground_map.w) / ground_map.x);
   vec3 n = vec3(0.0, 1.0, 0.0);
   vec4 lights_seen = seen_here(0);
-  vec3 light = seen_here(1).rgb * open_sky(n);
+  vec3 light = ambient_light(open_sky(n), seen_here(1).rgb, vec3(0.0), mesh_albedo.rgb);
   for (int i = 0; i < int(counts.x); ++i) {
     vec3 direction;
     light += lights[i].radiance.rgb * rectangle_irradiance(lights[i], x, n, direction) * lights_seen[i];

@@ -67,6 +67,13 @@ struct SkySeen {
   vec3 diffuse, mirrored;
 };
 
+// Irradiance of the sky, of which the part `seen` is, and from below. What hides the sky is lit as this point is and of
+// that colour.
+vec3 ambient_light(vec3 open, vec3 seen, vec3 from_below, vec3 albedo) {
+  vec3 hidden = open * (1.0 - seen) / (open + from_below + 1e-6);
+  return (open * seen + from_below) / max(1.0 - hidden * albedo, 0.05);
+}
+
 vec2 ground_map_at(vec3 x) { return x.xz * ground_map.x + ground_map.zw; }
 
 // Mean radiance from below the horizon on the ground itself, see radiance_from_below().
@@ -168,13 +175,6 @@ vec3 light_from_below(vec3 n, vec4 below) {
 #else
   return 0.5 * PI * (1.0 - n.y) * below.rgb;
 #endif
-}
-
-// Irradiance of the sky, of which the part `seen` is, and from below. What hides the sky is lit as this point is and of
-// its colour.
-vec3 ambient_light(vec3 open, vec3 seen, vec3 from_below, vec3 albedo) {
-  vec3 hidden = open * (1.0 - seen) / (open + from_below + 1e-6);
-  return (open * seen + from_below) / max(1.0 - hidden * albedo, 0.05);
 }
 
 // What comes from all around: irradiance from above and below, and radiance in the coat's mirror, of the sky, of a mesh
