@@ -44,6 +44,8 @@ ReceiverBlocks receivers_around(const PixelRectangle& part, int step, const Bloc
   return all;
 }
 
+constexpr auto everywhere = [](int, int) { return true; };
+
 /// What cells say of a pixel.
 enum class Found { nothing_there, yes, no };
 
@@ -166,11 +168,11 @@ void light_each_pixel(const Lighting& l, const PixelRectangle& part, const Recei
 }
 
 /// By cells of step x step pixels where that will do. receivers(x, y, step, r) are those of a block at pixel
-/// (x, y) of the part; shared(x, y, cells, at_x, at_y, seen) what the cells, from whose own corner the pixel
-/// is at (at_x, at_y), say of it.
-template <std::size_t N, class BlockReceivers, class Shared>
+/// (x, y) of the part; wanted(x, y) whether any is in a row of a block from there on; shared(x, y, cells,
+/// at_x, at_y, seen) what the cells, from whose own corner the pixel is at (at_x, at_y), say of it.
+template <std::size_t N, class BlockReceivers, class Wanted, class Shared>
 void light_part(const Lighting& l, const PixelRectangle& part, int step, const BlockReceivers& receivers,
-                const Shared& shared) {
+                const Wanted& wanted, const Shared& shared) {
   const PixelRectangle own = {0, 0, part.width, part.height};
   const ReceiverBlocks cells =
       receivers_around(own, step, [&](int x, int y, Receivers& r) { return receivers(x, y, step, r); });
@@ -186,18 +188,20 @@ void light_part(const Lighting& l, const PixelRectangle& part, int step, const B
   bool any = false;
   std::array<float, N> seen;
   for (int y = 0; y < part.height; ++y) {
-    for (int x = 0; x < part.width; ++x) {
-      const std::size_t k = block_of(x, y);
-      if (alone[k] != 0) continue;
-      switch (shared(x, y, parts, x + right, y + above, seen)) {
-        case Found::nothing_there:
-          break;
-        case Found::yes:
-          put_parts(seen, pixel_of(l.lit.at, part.x + x, part.y + y), l.lit);
-          break;
-        case Found::no:
-          alone[k] = 1, any = true;
-          break;
+    for (int left = 0; left < part.width; left += block_width) {
+      const std::size_t k = block_of(left, y);
+      if (alone[k] != 0 || !wanted(left, y)) continue;
+      for (int x = left; x < left + block_width && alone[k] == 0; ++x) {
+        switch (shared(x, y, parts, x + right, y + above, seen)) {
+          case Found::nothing_there:
+            break;
+          case Found::yes:
+            put_parts(seen, pixel_of(l.lit.at, part.x + x, part.y + y), l.lit);
+            break;
+          case Found::no:
+            alone[k] = 1, any = true;
+            break;
+        }
       }
     }
   }
@@ -286,12 +290,13 @@ void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<cons
       return tiles.touch(x, band.y + y, step * block_width, step * block_height) &&
              ground_receivers(frame, lit.at.x + x, lit.at.y + band.y + y, step, r);
     };
-    const auto shared = [&](int x, int y, const CoarseParts<most_lights>& cells, int at_x, int at_y,
+    const auto wanted = [&](int x, int y) { return tiles.touch(x, band.y + y, block_width, 1); };
+    const auto shared = [&](int, int, const CoarseParts<most_lights>& cells, int at_x, int at_y,
                             std::array<float, most_lights>& seen) {
-      if (cells.is_open(at_x, at_y) || !tiles.touch(x, band.y + y, 1, 1)) return Found::nothing_there;
+      if (cells.is_open(at_x, at_y)) return Found::nothing_there;
       return cells.find(at_x, at_y, 0.0F, normal, 1.0F, seen) ? Found::yes : Found::no;
     };
-    light_part<most_lights>({frame, maps, Sky::left_out, lit}, band, ground_step, receivers, shared);
+    light_part<most_lights>({frame, maps, Sky::left_out, lit}, band, ground_step, receivers, wanted, shared);
   });
 }
 
@@ -314,7 +319,7 @@ void light_surfaces_by_cells(const Lighting& l, const SurfaceTexels& surfaces) {
                  ? Found::yes
                  : Found::no;
     };
-    light_part<N>(l, band, surface_step, receivers, shared);
+    light_part<N>(l, band, surface_step, receivers, everywhere, shared);
   });
 }
 
@@ -352,7 +357,7 @@ void light_ground_map(const FrameBlock& frame, const DepthMaps& maps, LitPixels&
                            std::array<float, parts>& seen) {
       return cells.find(at_x, at_y, 0.0F, Vec3::UnitY(), 1.0F, seen) ? Found::yes : Found::no;
     };
-    light_part<parts>({frame, maps, Sky::softly, lit}, band, surface_step, receivers, shared);
+    light_part<parts>({frame, maps, Sky::softly, lit}, band, surface_step, receivers, everywhere, shared);
   });
 }
 
