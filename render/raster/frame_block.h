@@ -55,7 +55,7 @@ struct FrameBlock {
   Vec4 background;      // rgb, w 1 where it is a colour, 0 where it is the sky
   Vec4 ground;          // height, radius, fade_start [m], 1 where there is ground
   Vec4 ground_at;       // xyz centre [m]
-  Vec4 ground_texture;  // unused, side of a square, width of lines [m]
+  Vec4 ground_texture;  // side of a square, width of lines [m]
   Vec4 texture_color;   // rgb, of its other squares or lines
   Vec4 ground_map;      // world xz to the ground map's [0, 1]: scale x, offset zw; y: size of a texel [m]
   Vec4 sky_map;         // xyz centre [m], w 1 / radius of the meshes' sphere [1/m]

@@ -158,7 +158,7 @@ void LightMaps::set_scene(const RenderScene& given, const RenderScene& scene, co
   const Ground& g = scene.ground;
   block.ground = Vec4(g.height, g.radius, g.fade_start, 0.0F);
   show_ground(g.enabled, block);
-  block.ground_texture = Vec4(0.0F, g.texture_size, g.line_width, 0.0F);
+  block.ground_texture = Vec4(g.texture_size, g.line_width, 0.0F, 0.0F);
   block.texture_color = vec4(g.texture_color, 0.0F);
   block.ground_at = vec4(Vec3(g.center.x(), g.height, g.center.z()), 0.0F);
   block.counts =

@@ -1,7 +1,10 @@
 #include "render/raster/programs.h"
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
+#include "render/ground_texture.h"
 #include "render/raster/shaders/shaders.h"
 
 namespace lagomorph::render::raster {
@@ -18,6 +21,21 @@ const char* color_definition(bool colors) { return colors ? "#define COLORS\n" :
 std::string LightFeatures::definitions() const {
   return std::string(sky_map ? "#define SKY_MAP\n" : "") + (sun_discs ? "#define SUN_DISCS\n" : "") +
          (sheen ? "#define SHEEN\n" : "") + "#define GROUND_TEXTURE " + std::to_string(ground_texture) + "\n";
+}
+
+LightFeatures light_features(const RenderScene& scene, const RenderScene& drawn) {
+  const auto any_material = [&](const auto& holds) {
+    return std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                       [&](const Mesh& mesh) { return holds(mesh.material); });
+  };
+  const std::vector<std::string> textures = ground_texture_names();
+  const auto texture = std::find(textures.begin(), textures.end(), drawn.ground.texture) - textures.begin();
+  return {.sky_map = drawn.sky.map != nullptr,
+          .sun_discs = !drawn.background && std::any_of(drawn.suns.begin(), drawn.suns.end(),
+                                                        [](const Sun& sun) { return sun.visible; }),
+          .see_through = any_material([](const Material& m) { return m.opacity < 1.0F; }),
+          .sheen = any_material([](const Material& m) { return m.sheen > 0.0F; }),
+          .ground_texture = static_cast<int>(texture)};
 }
 
 SeenPrograms::SeenPrograms(int multisample, bool colors, const LightFeatures& light_features)
@@ -44,16 +62,17 @@ PeelPrograms::PeelPrograms(int multisample, bool colors, const LightFeatures& li
       composite("peeled surfaces over the picture", {shaders::full_screen_vertex},
                 {shaders::composite_fragment}) {}
 
-Programs::Programs(int multisample, const LightFeatures& light_features)
-    : seen(multisample, false, light_features),
-      ground_cover("ground cover", {shaders::frame, shaders::ground_vertex},
+BodyPrograms::BodyPrograms(int multisample)
+    : ground_cover("ground cover", {shaders::frame, shaders::ground_vertex},
                    {shaders::frame, shaders::ground_point, shaders::ground_cover_fragment}),
       surface("surface", {shaders::full_screen_vertex},
               {definitions(multisample, false).c_str(), shaders::frame, shaders::layers, shaders::layer_point,
-               shaders::surface_fragment}),
-      mesh_depth("mesh depth", {shaders::frame, shaders::mesh_vertex},
-                 {shaders::frame, shaders::mesh_depth_fragment}),
-      ground_depth("ground depth", {shaders::frame, shaders::ground_vertex},
-                   {shaders::frame, shaders::ground_point, shaders::ground_depth_fragment}) {}
+               shaders::surface_fragment}) {}
+
+DepthPrograms::DepthPrograms()
+    : mesh("mesh depth", {shaders::frame, shaders::mesh_vertex},
+           {shaders::frame, shaders::mesh_depth_fragment}),
+      ground("ground depth", {shaders::frame, shaders::ground_vertex},
+             {shaders::frame, shaders::ground_point, shaders::ground_depth_fragment}) {}
 
 }  // namespace lagomorph::render::raster

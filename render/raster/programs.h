@@ -3,6 +3,7 @@
 #include <string>
 
 #include "render/raster/gl_objects.h"
+#include "render/render_scene.h"
 
 namespace lagomorph::render::raster {
 
@@ -19,6 +20,8 @@ struct LightFeatures {
   /// rasterizer goes through both sides of every branch.
   std::string definitions() const;
 };
+/// `drawn`: with_stand_ins() of the scene.
+LightFeatures light_features(const RenderScene&, const RenderScene& drawn);
 
 /// What draws the samples that say what is seen, and what lights them; `colors`: where meshes have colours of
 /// their vertices.
@@ -39,12 +42,18 @@ struct PeelPrograms {
 /// For shaders of meshes whose vertices have colours.
 const char* color_definition(bool colors);
 
-/// All but those of LightMaps, and those that few scenes need.
-struct Programs {
-  Programs(int multisample, const LightFeatures&);
+/// What hides samples under the ground, and what says which surfaces of the others are to be lit.
+struct BodyPrograms {
+  explicit BodyPrograms(int multisample);
 
-  SeenPrograms seen;
-  Program ground_cover, surface, mesh_depth, ground_depth;
+  Program ground_cover, surface;
+};
+
+/// Depths along the view axis.
+struct DepthPrograms {
+  DepthPrograms();
+
+  Program mesh, ground;
 };
 
 }  // namespace lagomorph::render::raster

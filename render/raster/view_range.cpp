@@ -91,6 +91,15 @@ PixelRectangle mirrored_rectangle(const Camera& camera, std::span<const std::vec
   return common_rectangle(r, {0, 0, camera.width(), camera.height()});
 }
 
+bool ground_may_hide(const Camera& camera, std::span<const std::vector<Vec3>> positions,
+                     const Ground& ground) {
+  if (!ground.enabled) return false;
+  if (camera.is_orthographic() || camera.position().y() <= ground.height) return true;
+  return std::any_of(positions.begin(), positions.end(), [&](const std::vector<Vec3>& mesh) {
+    return std::any_of(mesh.begin(), mesh.end(), [&](const Vec3& p) { return p.y() < ground.height; });
+  });
+}
+
 PixelRectangle rectangle_of(const PixelRegion& r, int height) {
   return {r.x0, height - r.y1, r.width(), r.height()};
 }

@@ -33,6 +33,9 @@ PixelRectangle seen_rectangle(const Camera&, std::span<const std::vector<Vec3>> 
 PixelRectangle mirrored_rectangle(const Camera&, std::span<const std::vector<Vec3>> positions,
                                   const RenderScene&);
 
+/// Whether the ground may hide something: it is seen from below, or something is under it.
+bool ground_may_hide(const Camera&, std::span<const std::vector<Vec3>> positions, const Ground&);
+
 /// A region of a picture of this height.
 PixelRectangle rectangle_of(const PixelRegion&, int height);
 /// Empty (of no width and height) where they do not meet.

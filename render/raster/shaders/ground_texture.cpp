@@ -61,13 +61,13 @@ float checker_signs(vec2 x, mat2 spread, vec2 deviation, float size) {
 
 // Part that texture_color has.
 float ground_texture_at(vec3 x, mat2 spread) {
-  float size = ground_texture.y;
+  float size = ground_texture.x;
   vec2 deviation = sqrt(spread[0] * spread[0] + spread[1] * spread[1]);
 #if GROUND_TEXTURE == 1
   return 0.5 - 0.5 * checker_signs(x.xz, spread, deviation, size);
 #else
-  vec2 fine = on_lines(x.xz, deviation, size, ground_texture.z);
-  vec2 metres = on_lines(x.xz, deviation, 1.0, 3.0 * ground_texture.z);
+  vec2 fine = on_lines(x.xz, deviation, size, ground_texture.y);
+  vec2 metres = on_lines(x.xz, deviation, 1.0, 3.0 * ground_texture.y);
   vec2 line = max(fine, metres);
   return 1.0 - (1.0 - line.x) * (1.0 - line.y);
 #endif

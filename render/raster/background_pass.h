@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "render/raster/light_maps.h"
+#include "render/raster/lit_pixels.h"
+#include "render/raster/still_picture.h"
+
+namespace lagomorph::render::raster {
+
+/// What is behind the bodies: the background, and over it the ground under their shadows.
+class BackgroundPass {
+public:
+  /// `drawn`: with_stand_ins() of the scene, whose ground catches shadows only in transparent pictures.
+  void set_scene(const RenderScene& drawn, const LightFeatures&, const SurfaceBlock& ground);
+  void show_ground(bool shown);
+  /// A rectangle of it into a linear colour, interleaved, rows from the top. The frame's block and all maps
+  /// are bound.
+  void draw(const FrameBlock&, const LightMaps&, const PixelRectangle&, std::span<float> color);
+
+  /// Alpha of a ground that catches shadows, rows from the top; empty where it does not.
+  std::span<const float> caught() const { return caught_; }
+  /// Whether rays show what the ground mirrors.
+  bool mirrors_by_rays() const;
+
+private:
+  bool catches_shadows() const { return ground_.enabled && ground_.shadow_catcher; }
+  void catch_shadows(const FrameBlock&, const StillParts&, const PixelRectangle&, std::span<float> color);
+
+  Ground ground_;
+  std::optional<StillPicture> still_;
+  LitPixels lit_;
+  std::vector<float> caught_;
+};
+
+}  // namespace lagomorph::render::raster
