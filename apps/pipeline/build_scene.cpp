@@ -15,6 +15,7 @@
 #include "apps/pipeline/recordings.h"
 #include "apps/scene/panels.h"
 #include "apps/scene/shutter.h"
+#include "render/albedo.h"
 #include "render/atmosphere.h"
 #include "render/error.h"
 #include "render/hdr.h"
@@ -201,8 +202,9 @@ render::Triangle to_render(const sim::Triangle& t) {
 
 std::vector<render::Color> plain_colors(const SceneDesc& scene, const sim::Surface& surface,
                                         std::size_t body) {
+  const render::Material& look = scene.body[body].look;
   std::vector<render::Color> colors(static_cast<std::size_t>(surface.vertex_count()),
-                                    scene.body[body].look.base_color);
+                                    look.transmission > 0.0F ? render::albedo(look) : look.base_color);
   if (scene.clip && scene.clip->color)
     std::fill(colors.begin() + surface.first_cut_vertex(), colors.end(), *scene.clip->color);
   return colors;
@@ -224,7 +226,8 @@ render::RenderScene build_render_scene(const SceneDesc& scene, const sim::Model&
     mesh.positions = to_render(surfaces[i].positions(X));
     mesh.material = scene.body[i].look;
     if (shows_field(scene, i) || (scene.clip && scene.clip->color))
-      mesh.colors = plain_colors(scene, surfaces[i], i);  // until a state is shown
+      mesh.colors = plain_colors(scene, surfaces[i], i);          // until a state is shown
+    if (!mesh.colors.empty()) mesh.material.transmission = 0.0F;  // else they would not be seen
     mesh.smooth = scene.body[i].surface.smooth;
     mesh.body_id = static_cast<int>(i);
     drawn.meshes.push_back(std::move(mesh));

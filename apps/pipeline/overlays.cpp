@@ -9,6 +9,7 @@
 #include "apps/overlay/overlay.h"
 #include "apps/pipeline/build_scene.h"
 #include "apps/pipeline/surface_fields.h"
+#include "apps/scene/panels.h"
 
 namespace lagomorph::apps {
 namespace {
@@ -294,6 +295,9 @@ std::vector<std::string> Overlays::remarks() const {
     remarks.emplace_back("glyphs.loads has no effect: no body has a load");
   for (std::size_t i = 0; i < scene_.body.size(); ++i) {
     const BodyDesc& body = scene_.body[i];
+    if (body.look.transmission > 0.0F &&
+        (apps::shows_field(scene_, i) || (scene_.clip && scene_.clip->color)))
+      remarks.push_back(fmt::format("body.{}.look.transmission has no effect: its surface shows colours", i));
     if (scene_.clip && body.surface.subdivide > 0)
       remarks.push_back(fmt::format("body.{}.surface.subdivide has no effect: clip shows the tets", i));
     if (!body.surface.fill && !body.wireframe.show) {

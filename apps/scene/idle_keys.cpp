@@ -73,6 +73,9 @@ const std::vector<IdleRow>& idle_rows() {
       {{"ground.shadow_catcher"},
        [](const SceneDesc& s) { return !s.render.transparent; },
        "render.transparent is false"},
+      {{"ground.shadow_catcher"},
+       [](const SceneDesc& s) { return s.render.transparent && !s.ground.enabled; },
+       "ground.enabled is false"},
       {{"layout."}, [](const SceneDesc& s) { return s.panel.empty(); }, "there is no [[panel]]"},
   };
   return rows;

@@ -38,7 +38,10 @@ void BackgroundPass::draw(const FrameBlock& block, const LightMaps& maps, const 
   light_ground(block, maps.depths(), tiles, lit_);
   copy_less_taken(block, still, maps.ground_seen(), tiles, lit_, drawn, mirrors_by_rays(), color);
   caught_.clear();
-  if (catches_shadows()) catch_shadows(block, still, drawn, color);
+  lit_ground_.clear();
+  if (!catches_shadows()) return;
+  lit_ground_.assign(color.begin(), color.end());
+  catch_shadows(block, still, drawn, color);
 }
 
 /// Of the ground only what is taken of its light is left, as alpha: black is behind its fading edge.
@@ -46,6 +49,7 @@ void BackgroundPass::catch_shadows(const FrameBlock& block, const StillParts& st
                                    const PixelRectangle& drawn, std::span<float> color) {
   const auto width = static_cast<std::size_t>(still.width);
   caught_.assign(still.pixels(), 0.0F);
+  const bool from_above = ground_is_below(block);
   const auto luminance = [](const float* c) { return 0.2126F * c[0] + 0.7152F * c[1] + 0.0722F * c[2]; };
   tbb::parallel_for(drawn.y, drawn.y + drawn.height, [&](int y) {
     for (int x = drawn.x; x < drawn.x + drawn.width; ++x) {
@@ -56,7 +60,7 @@ void BackgroundPass::catch_shadows(const FrameBlock& block, const StillParts& st
       const float all = luminance(still.picture.data() + 3 * from_below), reached = luminance(left);
       std::fill_n(left, 3, 0.0F);
       const auto ground = ground_at_pixel(block, static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
-      if (!ground || !(all > 0.0F)) continue;
+      if (!ground || !from_above || !(all > 0.0F)) continue;
       const float there = 1.0F - ground_fade(ground_, ground->point);
       caught_[at] = there * std::clamp(1.0F - reached / all, 0.0F, 1.0F);
     }

@@ -22,6 +22,10 @@ public:
 
   /// Alpha of a ground that catches shadows, rows from the top; empty where it does not.
   std::span<const float> caught() const { return caught_; }
+  /// What was drawn, `color`; with the ground that catches shadows as it is lit.
+  std::span<const float> lit(std::span<const float> color) const {
+    return lit_ground_.empty() ? color : std::span<const float>(lit_ground_);
+  }
   /// Whether rays show what the ground mirrors.
   bool mirrors_by_rays() const;
 
@@ -32,7 +36,7 @@ private:
   Ground ground_;
   std::optional<StillPicture> still_;
   LitPixels lit_;
-  std::vector<float> caught_;
+  std::vector<float> caught_, lit_ground_;
 };
 
 }  // namespace lagomorph::render::raster

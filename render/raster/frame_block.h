@@ -40,6 +40,7 @@ struct SkyDirectionBlock {
 struct SurfaceBlock {
   Vec4 color;   // base colour, or radiance of a light; w 1 for a light, -1 where rays show what is mirrored
   Vec4 finish;  // roughness, metallic, the dielectric's f0, opacity
+  Vec4 albedo;  // rgb, to tell it by, see render::albedo()
   Vec4 sheen;   // rgb; w its row in the table of sheens, in [0, 1]
 };
 

@@ -53,11 +53,13 @@ std::vector<std::string> optics_remarks(const RenderScene& scene) {
     add(m.subsurface > 0.0F, "subsurface is an opaque base of subsurface_color");
     add(m.coat > 0.0F && !drawn_by_rays(scene, mesh).mirrored,
         "coat sharpens the highlights instead of adding its own");
+    add(is_smooth_mirror(m) && m.metallic > 0.0F && !drawn_by_rays(scene, mesh).mirrored,
+        "it mirrors no bodies beside see-through ones");
     if (!what.empty()) remarks.push_back("look of '" + mesh.name + "': " + what);
   }
   const Material& ground = scene.ground.material;
-  if (scene.ground.enabled && ground.roughness < 0.5F && !mirrors_by_rays(scene.ground) &&
-      (ground.metallic > 0.0F || ground.ior > 1.0F))
+  if (scene.ground.enabled && !mirrors_by_rays(scene.ground) &&
+      (ground.metallic > 0.0F || (ground.ior > 1.0F && ground.roughness < 0.5F)))
     remarks.emplace_back("the ground mirrors lights and sky, and of bodies only that they hide the sky");
   return remarks;
 }

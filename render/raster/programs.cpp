@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/ground_texture.h"
+#include "render/raster/ray_scene.h"
 #include "render/raster/shaders/shaders.h"
 
 namespace lagomorph::render::raster {
@@ -20,7 +21,8 @@ const char* color_definition(bool colors) { return colors ? "#define COLORS\n" :
 
 std::string LightFeatures::definitions() const {
   return std::string(sky_map ? "#define SKY_MAP\n" : "") + (sun_discs ? "#define SUN_DISCS\n" : "") +
-         (sheen ? "#define SHEEN\n" : "") + "#define GROUND_TEXTURE " + std::to_string(ground_texture) + "\n";
+         (sheen ? "#define SHEEN\n" : "") + "#define SMALL_SUN " + std::to_string(small_sun) +
+         "\n#define GROUND_TEXTURE " + std::to_string(ground_texture) + "\n";
 }
 
 LightFeatures light_features(const RenderScene& scene, const RenderScene& drawn) {

@@ -143,6 +143,7 @@ void RasterRenderer::update_colors(int mesh, std::span<const Color> colors) {
                buffers.colored() ? positions_[static_cast<std::size_t>(mesh)].size() : 0, colors);
   context_->make_current();
   buffers.upload(colors);
+  if (gl_->rays) gl_->rays->geometry().color(mesh, colors);
 }
 
 void RasterRenderer::update_positions(int mesh, std::span<const Vec3> positions) {
@@ -248,7 +249,8 @@ void RasterRenderer::draw_with_rays(const Camera& camera, const BodyPass::View& 
                                     std::span<float> color) {
   Targets& targets = *gl_->targets;
   gl_->rays->geometry().commit();
-  std::vector<float> still(color.begin(), color.end()), solid;
+  const std::span<const float> background = gl_->background.lit(color);
+  std::vector<float> still(background.begin(), background.end()), solid;
   DrawnPictures pictures{still, still, {}};
   std::vector<SurfaceTexel> surfaces;
   if (!gl_->shapes.all(&MeshBuffers::clear)) {
@@ -265,11 +267,11 @@ void RasterRenderer::draw_with_rays(const Camera& camera, const BodyPass::View& 
                            color);
   }
   if (gl_->shapes.any(&MeshBuffers::clear)) {
-    std::copy(color.begin(), color.end(), still.begin());
+    if (gl_->background.mirrors_by_rays()) std::copy(color.begin(), color.end(), still.begin());
     gl_->bodies.draw(gl_->shapes, Which::opaque, view, targets);
   }
   targets.put_over(color);
-  add_by_rays(*gl_->rays, camera, pictures, view.seen, color);
+  add_by_rays(*gl_->rays, camera, pictures, view.seen, settings_.raster.multisample, color);
 }
 
 std::string RasterRenderer::description() const {

@@ -39,14 +39,16 @@ int rays_a_pixel(float alpha) { return alpha > rough_alpha ? most_rays : fewest_
 class RayTile {
 public:
   RayTile(const RayScene& scene, const Camera& camera, const DrawnPictures& pictures,
-          const PixelRectangle& at, int samples)
+          const PixelRectangle& at, int samples, int multisample)
       : scene_(scene),
         camera_(camera),
         pictures_(pictures),
         at_(at),
         samples_(samples),
+        multisample_(multisample),
         is_rough_(samples > fewest_rays),
         light_(static_cast<std::size_t>(at.width) * static_cast<std::size_t>(at.height), Color::Zero()),
+        replaced_(light_.size(), 0.0F),
         numbers_(0, 0, samples) {}
 
   /// What is seen through clear meshes and mirrored by smooth ones.
@@ -67,7 +69,7 @@ public:
     trace_rays(path::Coherence::incoherent);
     for (std::size_t i = 0; i < paths_.size(); ++i) {
       if (hits_[i].mesh == path::MeshHit::none) continue;
-      add(paths_[i], -scene_.sky_without_sun(paths_[i].ray.direction));
+      add(paths_[i], -scene_.sky(paths_[i].ray.direction).min(most_of_lamp));
       arrive(i, 1, false);
     }
     step_on();
@@ -81,7 +83,8 @@ public:
       const int pixel = (at_.y + k / at_.width) * camera_.width() + at_.x + k % at_.width;
       float* to = color.data() + 3 * static_cast<std::size_t>(pixel);
       const Color& light = light_[static_cast<std::size_t>(k)];
-      for (int c = 0; c < 3; ++c) to[c] = std::max(to[c] + weight * light[c], 0.0F);
+      const float left = 1.0F - weight * replaced_[static_cast<std::size_t>(k)];
+      for (int c = 0; c < 3; ++c) to[c] = std::max(left * to[c] + weight * light[c], 0.0F);
     }
   }
 
@@ -108,7 +111,7 @@ private:
     for (std::uint32_t k = 0; k < light_.size(); ++k) {
       const int x = at_.x + static_cast<int>(k) % at_.width, y = at_.y + static_cast<int>(k) / at_.width;
       for (int s = 0; s < samples_; ++s) {
-        const Vec2 place = sample_place(s, samples_);
+        const Vec2 place = multisample_ > 1 ? sample_place(s, samples_) : Vec2(0.5F, 0.5F);
         paths_.push_back({camera_.ray(static_cast<float>(x) + place.x(), static_cast<float>(y) + place.y()),
                           Color::Ones(), k, static_cast<std::uint32_t>(s), path::MeshHit::none});
       }
@@ -145,7 +148,8 @@ private:
     if (scene_.geometry().meet_ground(ray) < met.t || scene_.light_is_before(ray, met.t)) return;
     const path::SurfacePoint surface = scene_.geometry().arrive(ray, hit, met);
     if (scene_.surface(hit.mesh).inside) {
-      pass(paths_[i], surface, hit.mesh, 0);
+      if (surface.inside) replaced_[paths_[i].pixel] += 1.0F;
+      pass(paths_[i], surface, hit, met, 0);
     } else {
       mirror(paths_[i], surface, scene_.surface(hit.mesh).alpha, 0,
              scene_.mirrored_by_mesh(hit, met, -ray.direction.dot(surface.normal)));
@@ -198,7 +202,7 @@ private:
       const path::SurfacePoint surface = geometry.arrive(p.ray, hit, met);
       const RayScene::Surface& of = scene_.surface(hit.mesh);
       if (of.inside) {
-        pass(p, surface, hit.mesh, surfaces);
+        pass(p, surface, hit, met, surfaces);
         return;
       }
       add(p, scene_.of_mesh(camera_, pictures_, hit, met, surface));
@@ -224,7 +228,9 @@ private:
   }
 
   /// Through the surface of a clear mesh and back from it.
-  void pass(const Path& p, const path::SurfacePoint& surface, std::uint32_t mesh, int surfaces) {
+  void pass(const Path& p, const path::SurfacePoint& surface, const path::MeshHit& hit,
+            const path::TriangleHit& met, int surfaces) {
+    const std::uint32_t mesh = hit.mesh;
     const RayScene::Surface& of = scene_.surface(mesh);
     const RayScene::Inside& inside = *of.inside;
     const float eta = surface.inside ? 1.0F / inside.ior : inside.ior;
@@ -232,10 +238,14 @@ private:
     const Vec3 h = facet(p, surface, of.alpha, surfaces);
     const float mirrored = path::fresnel(std::min(wo.dot(h), 1.0F), eta);
     Path on = p, back = p;
-    on.share *= 1.0F - mirrored;
+    on.share *= (1.0F - mirrored) * inside.share;
     back.share *= mirrored;
+    if (surfaces > 0 && inside.share < 1.0F) {
+      Path base = p;
+      base.share *= (1.0F - mirrored) * (1.0F - inside.share);
+      add(base, scene_.of_mesh(camera_, pictures_, hit, met, surface));
+    }
     if (surfaces == 0) {
-      on.share *= inside.share;
       if (!of.by_rays.mirrored) back.share = Color::Zero();
     } else {
       // Of a dim one the other takes the share.
@@ -261,9 +271,11 @@ private:
   const Camera& camera_;
   const DrawnPictures& pictures_;
   PixelRectangle at_;  // y from the top
-  int samples_;
+  int samples_, multisample_;
   bool is_rough_;  // rays are spread
   std::vector<Color> light_;
+  std::vector<float>
+      replaced_;  // samples of each pixel whose eye is inside of a mesh, which OpenGL leaves out
   path::FrameSamples numbers_;
   std::vector<Path> paths_, next_;
   std::vector<Ray> rays_;
@@ -273,7 +285,8 @@ private:
 /// Calls see(tile) for those of a rectangle, and adds what they see.
 template <class See>
 void for_tiles(const RayScene& scene, const Camera& camera, const DrawnPictures& pictures,
-               const PixelRectangle& rectangle, int samples, std::span<float> color, const See& see) {
+               const PixelRectangle& rectangle, int samples, int multisample, std::span<float> color,
+               const See& see) {
   if (rectangle.width <= 0 || rectangle.height <= 0) return;
   const int right = rectangle.x + rectangle.width, bottom = camera.height() - rectangle.y;
   const int top = bottom - rectangle.height;
@@ -282,7 +295,7 @@ void for_tiles(const RayScene& scene, const Camera& camera, const DrawnPictures&
   tbb::parallel_for(0, columns * rows, [&](int k) {
     const int x = rectangle.x + k % columns * tile_side, y = top + k / columns * tile_side;
     const PixelRectangle at = {x, y, std::min(tile_side, right - x), std::min(tile_side, bottom - y)};
-    RayTile tile(scene, camera, pictures, at, samples);
+    RayTile tile(scene, camera, pictures, at, samples, multisample);
     see(tile);
     tile.add_to(color);
   });
@@ -291,15 +304,15 @@ void for_tiles(const RayScene& scene, const Camera& camera, const DrawnPictures&
 }  // namespace
 
 void add_by_rays(const RayScene& scene, const Camera& camera, const DrawnPictures& pictures,
-                 const PixelRectangle& rectangle, std::span<float> color) {
-  for_tiles(scene, camera, pictures, rectangle, rays_a_pixel(scene.roughest()), color,
+                 const PixelRectangle& rectangle, int multisample, std::span<float> color) {
+  for_tiles(scene, camera, pictures, rectangle, rays_a_pixel(scene.roughest()), multisample, color,
             [](RayTile& tile) { tile.see_meshes(); });
 }
 
 void add_mirrored_by_ground(const RayScene& scene, const Camera& camera, const DrawnPictures& pictures,
                             const PixelRectangle& rectangle, std::span<float> color) {
-  for_tiles(scene, camera, pictures, rectangle, scene.ground_alpha() > 0.0F ? most_rays : fewest_rays, color,
-            [](RayTile& tile) { tile.see_in_ground(); });
+  for_tiles(scene, camera, pictures, rectangle, scene.ground_alpha() > 0.0F ? most_rays : fewest_rays, 4,
+            color, [](RayTile& tile) { tile.see_in_ground(); });
 }
 
 }  // namespace lagomorph::render::raster

@@ -11,8 +11,8 @@
 namespace lagomorph::render::raster {
 
 /// Adds what is seen through clear meshes, and mirrored by smooth ones, in a rectangle to the whole picture,
-/// which has all else of them.
-void add_by_rays(const RayScene&, const Camera&, const DrawnPictures&, const PixelRectangle&,
+/// which has all else of them, `multisample` as OpenGL draws it.
+void add_by_rays(const RayScene&, const Camera&, const DrawnPictures&, const PixelRectangle&, int multisample,
                  std::span<float> color);
 /// Puts what the ground mirrors of meshes into the picture without meshes, in place of the sky behind them.
 void add_mirrored_by_ground(const RayScene&, const Camera&, const DrawnPictures&, const PixelRectangle&,

@@ -14,10 +14,10 @@
 namespace lagomorph::render::raster {
 namespace {
 
-constexpr float least_sun = 3e-3F;      // solid angle of suns that four rays a pixel show without noise [sr]
-constexpr std::size_t facing_down = 3;  // of ways to face
-constexpr float least_facing = 0.15F;   // cosine of what the picture shows well enough
-constexpr float roughest_mirror = 0.35F;  // of the ground, that rays show
+constexpr float least_facing_ground = 0.06F;  // likewise of the ground
+constexpr std::size_t facing_down = 3;        // of ways to face
+constexpr float least_facing = 0.15F;         // cosine of what the picture shows well enough
+constexpr float roughest_mirror = 0.35F;      // of the ground, that rays show
 
 float clear_part(const Material& m) { return (1.0F - m.metallic) * m.transmission; }
 
@@ -83,24 +83,28 @@ std::array<Color, 6> ambient_light(const Sky& sky, const Ground& ground) {
 
 }  // namespace
 
+bool is_smooth_mirror(const Material& m) {
+  const Material mirror = m.coat > 0.0F ? coat_of(m) : m;
+  return alpha_for_rays(mirror) <= rough_alpha && (mirror.metallic > 0.0F || mirror.ior > 1.0F);
+}
+
 ByRays drawn_by_rays(const RenderScene& scene, const Mesh& mesh) {
   if (std::any_of(scene.meshes.begin(), scene.meshes.end(),
                   [](const Mesh& m) { return m.material.opacity < 1.0F; }))
     return {};
   const Material& m = mesh.material;
   const bool behind = clear_part(m) > 0.0F && mesh.colors.empty();
-  const bool misses_none = std::all_of(scene.suns.begin(), scene.suns.end(),
-                                       [](const Sun& sun) { return solid_angle(sun) > least_sun; });
-  const Material mirror = m.coat > 0.0F ? coat_of(m) : m;
-  const bool smooth = alpha_for_rays(mirror) <= rough_alpha && (mirror.metallic > 0.0F || mirror.ior > 1.0F);
-  return {behind, smooth && misses_none && !(behind && m.coat > 0.0F)};
+  return {behind, is_smooth_mirror(m) && !(behind && m.coat > 0.0F)};
 }
 
 float light_through(const Material& m, float thickness) {
   // In and out through surfaces at the mean angle.
   const float once = 1.0F - path::fresnel(2.0F / 3.0F, std::max(m.ior, 1.001F));
   const Color inside = path::Absorption(m).transmittance(thickness);
-  return clear_part(m) * once * once * (0.2126F * inside.x() + 0.7152F * inside.y() + 0.0722F * inside.z());
+  // What is bent comes together elsewhere.
+  const float straight = 1.0F - 0.6F * std::min(2.0F * (m.ior - 1.0F), 1.0F);
+  return straight * clear_part(m) * once * once *
+         (0.2126F * inside.x() + 0.7152F * inside.y() + 0.0722F * inside.z());
 }
 
 bool mirrors_by_rays(const Ground& ground) {
@@ -115,11 +119,10 @@ float alpha_for_rays(const Material& m) {
 
 RayScene::RayScene(const RenderScene& scene, const RenderScene& drawn)
     : geometry_(scene),
-      ambient_(ambient_light(scene.sky, scene.ground)),
+      ambient_(ambient_light(drawn.sky, scene.ground)),
       ground_(scene.ground),
-      sky_(scene.sky),
-      drawn_sky_(drawn.sky),
-      has_background_(scene.background.has_value()),
+      sky_(drawn.sky),
+      has_background_(drawn.background.has_value()),
       ground_alpha_(alpha_for_rays(scene.ground.material)),
       ground_mirror_(scene.ground.material) {
   for (const Mesh& mesh : scene.meshes) {
@@ -143,12 +146,11 @@ RayScene::RayScene(const RenderScene& scene, const RenderScene& drawn)
       }
     }
   }
-  const bool sun_is_in_sky = drawn.sky.map != scene.sky.map;
-  for (std::size_t k = 0; k + (sun_is_in_sky ? 1 : 0) < drawn.lights.size(); ++k) {
+  const std::size_t first_sun = drawn.lights.size() - drawn.suns.size();
+  for (std::size_t k = 0; k < drawn.lights.size(); ++k) {
     const AreaLight& light = drawn.lights[k];
     lights_.emplace_back(light);
-    const float square = (light.position - light.look_at).squaredNorm();
-    met_.push_back(light.size.prod() > least_sun * square ? 1 : 0);
+    met_.push_back(k < first_sun || solid_angle(drawn.suns[k - first_sun]) >= small_sun ? 1 : 0);
   }
 }
 
@@ -239,11 +241,18 @@ Color RayScene::of_ground(const Camera& camera, const DrawnPictures& pictures, c
                           const Vec3& direction) const {
   const float fade = ground_fade(ground_, point);
   const std::optional<Vec2> at = place_in(camera, point);
-  if (at && (fade <= 0.0F || !has_background_))
-    return bilinear(pictures.still, camera.width(), camera.height(), *at);
+  float part = 0.0F;  // that the picture says
+  Color seen = Color::Zero();
+  if (at && (fade <= 0.0F || !has_background_)) {
+    const float facing = std::abs(camera.ray(at->x(), at->y()).direction.y());
+    part = std::clamp((facing - least_facing_ground) / least_facing_ground, 0.0F, 1.0F);
+    if (part > 0.0F) seen = bilinear(pictures.still, camera.width(), camera.height(), *at);
+    if (part >= 1.0F) return seen;
+  }
+  const bool shadows = part > 0.0F || at;  // where they are looked for
   const Color ground = std::numbers::inv_pi_v<float> * ground_color_at(ground_, point) *
-                       irradiance(point, Vec3::UnitY(), ambient_[facing_down], false);
-  return (1.0F - fade) * ground + fade * sky(direction);
+                       irradiance(point, Vec3::UnitY(), ambient_[facing_down], shadows);
+  return part * seen + (1.0F - part) * ((1.0F - fade) * ground + fade * sky(direction));
 }
 
 /// How much what the picture shows where the camera sees a point of an opaque mesh, at a place in it, is that

@@ -20,10 +20,12 @@ namespace lagomorph::render::raster {
 struct ByRays {
   bool behind = false;    // what is seen through its clear inside, where it has no colours of its vertices
   bool mirrored = false;  // what its coat or, without one, its surface mirrors where that is so smooth that
-                          // few rays show that without noise, beside suns that rays do not miss
+                          // few rays show it without noise
   bool any() const { return behind || mirrored; }
 };
 ByRays drawn_by_rays(const RenderScene&, const Mesh&);
+/// Whether its coat or, without one, its surface is that smooth.
+bool is_smooth_mirror(const Material&);
 /// Part of the light that comes through a mesh with a clear inside whose mean thickness is `thickness` [m].
 float light_through(const Material&, float thickness);
 /// Whether rays show the meshes that the ground mirrors: it is smooth enough.
@@ -33,6 +35,8 @@ bool mirrors_by_rays(const Ground&);
 constexpr float smooth_alpha = 2e-3F;  // up to which they are drawn as if they were smooth
 constexpr float rough_alpha = 1e-2F;
 float alpha_for_rays(const Material&);
+/// Suns that few rays would miss: their highlights are OpenGL's. `angle`: [sr]
+constexpr float small_sun = 3e-3F;
 
 /// Linear colours, interleaved, rows from the top: without any mesh, and without the clear ones, of which
 /// `surfaces` says where meshes are. There smooth meshes mirror nothing yet.
@@ -86,8 +90,6 @@ public:
   /// Radiance of lights that a ray meets before that.
   Color light_met(const Ray&, double distance) const;
   Color sky(const Vec3& direction) const { return sky_radiance(sky_, direction); }
-  /// Less a sun in a picture of it, which shines as one of the lights where it is not met by rays.
-  Color sky_without_sun(const Vec3& direction) const { return sky_radiance(drawn_sky_, direction); }
   /// Of the ground from where a ray meets it, as the picture without meshes shows it; outside of that, lit as
   /// if nothing were around.
   Color of_ground(const Camera&, const DrawnPictures&, const Vec3& point, const Vec3& direction) const;
@@ -104,10 +106,10 @@ private:
   path::SceneGeometry geometry_;
   std::vector<Surface> surfaces_;  // of each mesh
   std::vector<path::RectangleLight> lights_;
-  std::vector<char> met_;         // lights that rays meet: 0 for small suns, which they would miss
+  std::vector<char> met_;         // lights that rays meet: 0 for small suns, see small_sun
   std::array<Color, 6> ambient_;  // irradiance of sky and open ground on surfaces that face +x, -x, +y ...
   Ground ground_;
-  Sky sky_, drawn_sky_;
+  Sky sky_;
   bool has_background_;  // a colour, which only the camera sees
   float roughest_ = 0.0F;
   float ground_alpha_;

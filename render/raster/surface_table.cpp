@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "render/albedo.h"
 #include "render/raster/optics_stand_in.h"
 #include "render/raster/ray_scene.h"
 #include "render/raster/sky_model.h"
@@ -17,7 +18,7 @@ SurfaceBlock surface_block(const Material& material, float thickness, ByRays by_
   const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
   const bool mirrors = !by_rays.mirrored || material.coat > 0.0F;  // the coat is another mirror
   return {vec4(m.base_color, mirrors ? 0.0F : -1.0F), Vec4(m.roughness, m.metallic, r * r, m.opacity),
-          vec4(Color(m.sheen * m.sheen_tint), 0.5F)};
+          vec4(albedo(material), 0.0F), vec4(Color(m.sheen * m.sheen_tint), 0.5F)};
 }
 
 }  // namespace
@@ -30,7 +31,8 @@ void SurfaceTable::set_scene(const RenderScene& scene, const std::vector<AreaLig
         surface_block(mesh.material, mean_chord(mesh.positions, mesh.triangles), drawn_by_rays(scene, mesh)));
   }
   for (const AreaLight& light : lights)
-    surfaces.push_back({vec4(Color(light.radiance * light.color), 1.0F), Vec4::Zero(), Vec4::Zero()});
+    surfaces.push_back(
+        {vec4(Color(light.radiance * light.color), 1.0F), Vec4::Zero(), Vec4::Zero(), Vec4::Zero()});
   sheens_.reset();
   if (sheen) set_sheens(scene, surfaces);
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, surfaces_.id());

@@ -34,7 +34,7 @@ uniform bool is_colored;
 #endif
 void main() {
   vec3 n = is_smooth ? (gl_FrontFacing ? smooth_normal : -smooth_normal) : cross(dFdx(world), dFdy(world));
-  vec3 albedo = surfaces[surface].color.rgb;
+  vec3 albedo = surfaces[surface].albedo.rgb;
 #ifdef COLORS
   if (is_colored) albedo = clamp(vertex_color, 0.0, 1.0);
 #endif

@@ -15,6 +15,7 @@ struct SkyDirection {
 struct Surface {
   vec4 color;   // base colour, or radiance of a light; w 1 for a light
   vec4 finish;  // roughness, metallic, the dielectric's f0, opacity
+  vec4 albedo;  // rgb, for the channel
   vec4 sheen;   // rgb; w its row in sheen_table
 };
 layout(std140, binding = 0) uniform Frame {

@@ -12,6 +12,7 @@ struct Coat {
   vec2 dielectric;    // f0, f90
   float alpha2;
   float roughness;
+  float shown;        // part of what it mirrors, but for small suns
 };
 
 float pow5(float x) {
@@ -23,9 +24,9 @@ Coat make_coat(Surface s) {
   float alpha = max(s.finish.x * s.finish.x, 1e-3);
   vec3 f0 = mix(vec3(s.finish.z), s.color.rgb, s.finish.y);
   float f90 = min(1.0, 50.0 * max(f0.r, max(f0.g, f0.b)));
-  float drawn = s.color.w < -0.5 ? 0.0 : 1.0;  // the rest is seen to by rays
-  return Coat((1.0 - s.finish.y) * s.color.rgb, drawn * f0, drawn * f90, vec2(s.finish.z, min(1.0, 50.0 * s.finish.z)),
-              alpha * alpha, s.finish.x);
+  float shown = s.color.w < -0.5 ? 0.0 : 1.0;  // the rest is seen to by rays
+  return Coat((1.0 - s.finish.y) * s.color.rgb, f0, f90, vec2(s.finish.z, min(1.0, 50.0 * s.finish.z)),
+              alpha * alpha, s.finish.x, shown);
 }
 
 // GGX times Smith's masking over 4 cos cos: D V [1/sr].

@@ -146,7 +146,7 @@ Finish finish_of(Surface surface, vec3 n, vec3 v) {
   f.coat = make_coat(surface);
   f.nv = clamp(dot(n, v), 1e-3, 1.0);
   vec4 at_eye = texture(coat_table, vec2(f.nv, f.coat.roughness));
-  f.mirrors = f.coat.f0 * at_eye.r + f.coat.f90 * at_eye.g;
+  f.mirrors = f.coat.shown * (f.coat.f0 * at_eye.r + f.coat.f90 * at_eye.g);
   f.out_of_base = into_base(f.coat, at_eye.rg);
   f.mean_into_base = into_base(f.coat, at_eye.ba);
   f.mean_lost = max(1.0 - at_eye.b - at_eye.a, 1e-6);
@@ -164,7 +164,8 @@ vec3 sent_of_light(int i, Finish f, Point p, vec3 v) {
   vec3 reflected =
       f.coat.diffuse * (f.out_of_base * into_base(f.coat, at_light.rg) / (PI * f.mean_into_base) * irradiance);
   reflected += f.multiple * (max(1.0 - at_light.r - at_light.g, 0.0) / (PI * f.mean_lost) * irradiance);
-  reflected += rectangle_reflection(lights[i], p.x, p.normal, v, f.nv, f.coat);
+  float shown = lights[i].normal.w > 0.0 && lights[i].normal.w < SMALL_SUN ? 1.0 : f.coat.shown;
+  reflected += shown * rectangle_reflection(lights[i], p.x, p.normal, v, f.nv, f.coat);
   return lights[i].radiance.rgb * reflected;
 }
 
