@@ -6,6 +6,7 @@
 #include "sim/linear_solver.h"
 #include "sim/newton.h"
 #include "sim/solve_counts.h"
+#include "sim/solver_trial.h"
 #include "sim/system_solver.h"
 #include "sim/vertex_rotations.h"
 
@@ -38,7 +39,7 @@ public:
   StepReport step(const Model& model, State& state, double h) override {
     const Held& held = model.held(state.t + 0.5 * h);
     hold(model, held.pins());
-    if (solver_.needs_trial(h)) try_solvers(model, h);
+    try_at_rest(solver_, h, model, held.pins(), {1.0, h * h}, A_);
     solver_.begin(h, [&] { return vertex_rotations(model.mesh(), state.q); });
     const VecX load = model.load_force(state.t + h);
     const VecX b = assemble(model, state, load, h);
@@ -69,17 +70,6 @@ private:
     solver_.analyze(model.pattern(), pins);
     is_analyzed_ = false;
     pins_ = &pins;
-  }
-
-  /// By A at rest.
-  void try_solvers(const Model& model, double h) {
-    const VecX q = Eigen::Map<const VecX>(model.mesh().X.data(), model.mesh().X.size());
-    A_.set_zero();
-    for (const auto& term : model.energies()) term->add_hessian(q, h * h, HessianKind::projected, A_);
-    model.add_mass(1.0, A_);
-    VecX b = model.mass_times(VecX::Ones(q.size()));
-    pins_->clear_pinned(b);
-    solver_.try_at_rest(h, A_, b);
   }
 
   /// Makes A = M + h² K + h C and returns M q̇0 - h ∂V/∂q + h f. [kg m/s]

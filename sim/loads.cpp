@@ -80,7 +80,7 @@ public:
   template <class ForceDensity>
   bool add_body_force(const ForceDensity& force_density) {  // [N/m^3], by the body's tet
     bool any = false;
-    const VecX X = Eigen::Map<const VecX>(mesh_.X.data(), mesh_.X.size());
+    const VecX X = as_q(mesh_.X);
     for (int j = body_.tets.begin; j < body_.tets.end; ++j) {
       const Tet& tet = mesh_.tets[static_cast<std::size_t>(j)];
       if (!all_marked(tet)) continue;

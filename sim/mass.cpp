@@ -74,7 +74,7 @@ Mat12 element_mass_lumped(double density, double volume) {
 
 VecX assemble_mass(const TetMesh& mesh, const std::vector<BodyMass>& bodies, const BlockPattern& pattern) {
   VecX blocks = VecX::Zero(pattern.block_count());
-  const VecX X = Eigen::Map<const VecX>(mesh.X.data(), mesh.X.size());
+  const VecX X = as_q(mesh.X);
   for (std::size_t b = 0; b < mesh.bodies.size(); ++b) {
     for (int j = mesh.bodies[b].tets.begin; j < mesh.bodies[b].tets.end; ++j) {
       const auto index = static_cast<std::size_t>(j);

@@ -43,7 +43,7 @@ void check_settings(const BodySettings& body, const std::string& where) {
 }
 
 void check_volumes(const TetMesh& mesh, const std::string& where) {
-  const VecX X = Eigen::Map<const VecX>(mesh.X.data(), mesh.X.size());
+  const VecX X = as_q(mesh.X);
   for (std::size_t j = 0; j < mesh.tets.size(); ++j) {
     const double volume = tet_volume(gather_corners(X, mesh.tets[j]));
     require(std::isnormal(volume) && volume > 0.0, where + ": tet " + std::to_string(j) + " has volume " +
@@ -171,7 +171,7 @@ Model::Model(std::vector<BodyInput> bodies, const Vec3& gravity) {
   energies_.push_back(std::make_unique<Gravity>(f_g_));
   gravity_ = energies_.back().get();
   damping_ = Damping(mesh_, damping, mass_blocks_, pattern_);
-  q0_ = Eigen::Map<const VecX>(mesh_.X.data(), mesh_.X.size());
+  q0_ = as_q(mesh_.X);
   qdot0_.resize(3 * mesh_.vertex_count());
   const Eigen::VectorXd mass = vertex_mass_ * Eigen::VectorXd::Ones(mesh_.vertex_count());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -181,7 +181,7 @@ Model::Model(std::vector<BodyInput> bodies, const Vec3& gravity) {
     const Points X = mesh_.X.middleRows(first, count);
     const Points v =
         start_velocities(bodies[b].settings, X, bodies[b].velocities, mass.segment(first, count), where);
-    qdot0_.segment(3 * first, 3 * count) = Eigen::Map<const VecX>(v.data(), v.size());
+    qdot0_.segment(3 * first, 3 * count) = as_q(v);
     set_start(bodies[b].settings, body.vertices, mesh_.X, pins(), where, q0_);
     loads_.append(mesh_, body, bodies[b].settings, masses_[b], where);
   }
@@ -263,7 +263,7 @@ Vec3 Model::angular_momentum(const State& state) const {
 
 double Model::min_J(const VecX& q) const {
   double least = std::numeric_limits<double>::infinity();
-  const VecX X = Eigen::Map<const VecX>(mesh_.X.data(), mesh_.X.size());
+  const VecX X = as_q(mesh_.X);
   for (std::size_t j = 0; j < mesh_.tets.size(); ++j) {
     const Tet& tet = mesh_.tets[j];
     if (!mesh_.is_quadratic(j)) {

@@ -9,6 +9,7 @@
 #include "sim/error.h"
 #include "sim/profile.h"
 #include "sim/rigid_motion.h"
+#include "sim/solver_trial.h"
 #include "sim/text.h"
 #include "sim/vertex_rotations.h"
 
@@ -132,19 +133,6 @@ void Newton::assemble(const Model& model, const IncrementalPotential& phi, const
   for (const auto& term : model.energies()) term->add_hessian(x, phi.a, kind, H);
   if (phi.m != 0.0) model.add_mass(phi.m, H);
   if (phi.C != nullptr) H.add(phi.c, *phi.C);
-}
-
-/// By what is there at rest whatever has happened since, so that a run that is taken up again finds the same.
-void Newton::try_solvers(const Model& model, const IncrementalPotential& phi) {
-  IncrementalPotential at_rest;
-  at_rest.m = phi.m;
-  at_rest.a = phi.a;
-  const VecX q = Eigen::Map<const VecX>(model.mesh().X.data(), model.mesh().X.size());
-  at_rest.b = (1.0 - phi.a) * q;
-  assemble(model, at_rest, q, HessianKind::projected, H_);
-  VecX b = model.mass_times(VecX::Ones(q.size()));
-  pins().clear_pinned(b);
-  solver_.try_at_rest(phi.m, H_, b);
 }
 
 /// How exactly a system is to be solved: |g| is to fall to `tolerance` times what it is now, and in the end
@@ -286,7 +274,7 @@ NewtonReport Newton::minimize(const Model& model, const IncrementalPotential& ph
   const Pins* held = phi.pins != nullptr ? phi.pins : &model.pins();
   if (held != pins_) solver_.analyze(model.pattern(), *held);
   pins_ = held;
-  if (solver_.needs_trial(phi.m)) try_solvers(model, phi);
+  try_at_rest(solver_, phi.m, model, pins(), {phi.m, phi.a}, H_);
   solver_.begin(phi.m, [&] { return vertex_rotations(model.mesh(), q); });
   has_fresh_hessian_ = false;
   NewtonReport report;

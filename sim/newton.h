@@ -56,7 +56,6 @@ private:
   struct Point;
   Point evaluate(const Model&, const IncrementalPotential&, VecX q) const;
   void assemble(const Model&, const IncrementalPotential&, const VecX& q, HessianKind, BlockHessian& H) const;
-  void try_solvers(const Model&, const IncrementalPotential&);
   struct Goal;
   FactorStatus find_direction(const Model&, const IncrementalPotential&, const Point&, const VecX& lift,
                               const Goal&, double& clamping, VecX& direction);

@@ -66,8 +66,7 @@ public:
 
 private:
   static bool starts_at_rest(const Model& model, const State& state) {
-    return state.frame > 0 ||
-           model.initial_state().q == Eigen::Map<const VecX>(model.mesh().X.data(), state.q.size());
+    return state.frame > 0 || model.initial_state().q == as_q(model.mesh().X);
   }
 
   /// The pins' forces at the end, and the work along the way to there by the trapezoidal rule. Loads that

@@ -34,5 +34,7 @@ struct Range {
 
 /// q viewed as n×3 points. q.size() must be a multiple of 3.
 inline Eigen::Map<const Points> as_points(const VecX& q) { return {q.data(), q.size() / 3, 3}; }
+/// n×3 points viewed as q.
+inline Eigen::Map<const VecX> as_q(const Points& X) { return {X.data(), X.size()}; }
 
 }  // namespace lagomorph::sim

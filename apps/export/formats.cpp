@@ -27,7 +27,7 @@ std::vector<std::uint8_t> pinned(const sim::Model& model, double t) {
 /// With the state's vectors, whatever the fields; of displacement the vector alone.
 std::string vtu(const ExportedScene& scene, const sim::State& state) {
   sim::TetMesh mesh = scene.model.mesh();
-  const sim::VecX moved = state.q - Eigen::Map<const sim::VecX>(mesh.X.data(), mesh.X.size());
+  const sim::VecX moved = state.q - sim::as_q(mesh.X);
   mesh.X = sim::as_points(state.q);
   std::vector<std::string> scalars = scene.fields;
   std::erase(scalars, "displacement");

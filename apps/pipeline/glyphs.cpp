@@ -234,7 +234,7 @@ void Glyphs::draw_gravity(render::Picture& picture, const View& view, const sim:
 void Glyphs::for_displacements(const VecX& q, const auto& visit) const {
   const int every = scene_.glyphs.displacement_every;
   if (every == 0) return;
-  const Eigen::Map<const VecX> rest(model_.mesh().X.data(), model_.mesh().X.size());
+  const VecX rest = sim::as_q(model_.mesh().X);
   for (const sim::Surface& surface : surfaces_) {
     const sim::Points X = surface.positions(rest), x = surface.positions(q);
     for (Eigen::Index v = 0; v < surface.first_cut_vertex(); v += every)

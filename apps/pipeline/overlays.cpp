@@ -209,8 +209,7 @@ void Overlays::draw_face_orientations(render::Picture& picture, const render::Ca
 }
 
 void Overlays::draw_ghosts(render::Picture& picture, const View& view) const {
-  const sim::Points& X = model_.mesh().X;
-  const Eigen::Map<const sim::VecX> rest(X.data(), X.size());
+  const sim::VecX rest = sim::as_q(model_.mesh().X);
   for (std::size_t i = 0; i < ghosts_.size(); ++i) {
     if (ghosts_[i].mesh.edges.empty()) continue;
     draw_ghost(picture, view, ghosts_[i].mesh, positions_of(ghosts_[i], rest),

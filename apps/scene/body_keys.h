@@ -2,10 +2,12 @@
 
 #include "apps/scene/keys.h"
 
-/// Keys of a body's physics: what it is made of, and what holds and drives it.
+/// Keys of a body: what it is made of, what holds and drives it, and how it looks.
 namespace lagomorph::apps {
 
-/// What of the principled material only the path tracer draws.
+void visit_body(BodyDesc&, KeyVisitor&);
+/// Of the principled material: what the floor's has, too, and the rest.
+void visit_look(render::Material&, KeyVisitor&);
 void visit_optics(render::Material&, KeyVisitor&);
 void visit_shown_field(ShownField&, KeyVisitor&);
 std::vector<std::string> field_choices();

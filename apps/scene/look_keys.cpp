@@ -16,6 +16,21 @@ std::vector<std::string> colormap_choices() {
   return names;
 }
 
+void visit_look(render::Material& m, KeyVisitor& v) {
+  v.key({.name = "base_color",
+         .bounds = between(0, 1),
+         .meaning = "linear RGB: diffuse albedo, or a metal's reflectance at normal incidence"},
+        &m.base_color);
+  v.key({.name = "roughness", .bounds = between(0, 1), .meaning = "perceptual; GGX alpha is its square"},
+        &m.roughness);
+  v.key({.name = "metallic",
+         .bounds = between(0, 1),
+         .meaning = "0 a dielectric over a diffuse base, 1 a metal"},
+        &m.metallic);
+  v.key({.name = "ior", .bounds = between(1, 10), .meaning = "index of refraction of the dielectric"},
+        &m.ior);
+}
+
 void visit_shown_field(ShownField& s, KeyVisitor& v) {
   v.key({.name = "field",
          .meaning = "scalar field that colours the surface, in place of base_color",

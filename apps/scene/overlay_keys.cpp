@@ -113,4 +113,13 @@ void visit_clip(ClipDesc& c, KeyVisitor& v) {
       &c.color);
 }
 
+void visit_caption(CaptionDesc& c, KeyVisitor& v) {
+  v.key({.name = "text",
+         .meaning = "written over each picture, with values as {name}, {frame:04}, {frames}, {time:.2f}, "
+                    "{kinetic:.1f}, "
+                    "{elastic}, {gravitational}, {total}, {iterations}, {min_J}; empty: nothing"},
+        &c.text);
+  v.key({.name = "place", .meaning = "where in the picture", .choices = caption_places}, &c.place);
+}
+
 }  // namespace lagomorph::apps

@@ -371,8 +371,9 @@ LAGOMORPH_INLINE void light_of(const FrameBlock& frame, const LightBlock& light,
   const float half_height = std::abs(half_x * light.right[1]) + std::abs(half_y * light.up[1]);
   alignas(64) Lanes whole{}, past{};
   for (int k = 0; k < points * points; ++k) {
-    const float i = half_x * static_cast<float>(2 * (k % points) + 1 - points);
-    const float j = half_y * static_cast<float>(2 * (k / points) + 1 - points);
+    const int across = k % points, up = k / points;
+    const float i = half_x * static_cast<float>(2 * across + 1 - points);
+    const float j = half_y * static_cast<float>(2 * up + 1 - points);
     const float px = light.position[0] + i * light.right[0] + j * light.up[0];
     const float py = light.position[1] + i * light.right[1] + j * light.up[1];
     const float pz = light.position[2] + i * light.right[2] + j * light.up[2];

@@ -77,19 +77,19 @@ void put_sky(const Lanes3& seen, const PixelRectangle& at, int x, int y, std::ve
   }
 }
 
-enum class Sky { left_out, diffuse, mirrored_too, softly };
+enum class SkyLit { left_out, diffuse, mirrored_too, softly };
 
 /// What is asked for of the pixels of a part, and where it goes; rectangles count from `lit.at`.
 struct Lighting {
   const FrameBlock& frame;
   const DepthMaps& maps;
-  Sky sky;
+  SkyLit sky;
   LitPixels& lit;
 };
 
 void find_sky(const Lighting& l, const Receivers& receivers, SkySeen& seen) {
-  l.sky == Sky::softly ? sky_seen_softly(l.frame, l.maps, receivers, seen)
-                       : sky_seen(l.frame, l.maps, receivers, seen);
+  l.sky == SkyLit::softly ? sky_seen_softly(l.frame, l.maps, receivers, seen)
+                          : sky_seen(l.frame, l.maps, receivers, seen);
 }
 
 /// Calls to(light, seen) for each: the parts that soft_shadow() finds.
@@ -158,12 +158,12 @@ void light_each_pixel(const Lighting& l, const PixelRectangle& part, const Recei
       }
     });
   });
-  if (l.sky == Sky::left_out) return;
+  if (l.sky == SkyLit::left_out) return;
   for_inner_blocks([&](int, int, int to_x, int to_y, const Receivers& r) {
     SkySeen seen;
     find_sky(l, r, seen);
     put_sky(seen.diffuse, l.lit.at, to_x, to_y, l.lit.diffuse);
-    if (l.sky == Sky::mirrored_too) put_sky(seen.mirrored, l.lit.at, to_x, to_y, l.lit.mirrored);
+    if (l.sky == SkyLit::mirrored_too) put_sky(seen.mirrored, l.lit.at, to_x, to_y, l.lit.mirrored);
   });
 }
 
@@ -296,7 +296,7 @@ void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<cons
       if (cells.is_open(at_x, at_y)) return Found::nothing_there;
       return cells.find(at_x, at_y, 0.0F, normal, 1.0F, seen) ? Found::yes : Found::no;
     };
-    light_part<most_lights>({frame, maps, Sky::left_out, lit}, band, ground_step, receivers, wanted, shared);
+    light_part<most_lights>({frame, maps, SkyLit::left_out, lit}, band, ground_step, receivers, wanted, shared);
   });
 }
 
@@ -307,7 +307,7 @@ template <std::size_t N>
 void light_surfaces_by_cells(const Lighting& l, const SurfaceTexels& surfaces) {
   for_bands(surfaces.at, [&](const PixelRectangle& band) {
     const auto receivers = [&](int x, int y, int step, Receivers& r) {
-      return surface_receivers(l.frame, l.sky == Sky::mirrored_too, surfaces, band.x + x, band.y + y, step,
+      return surface_receivers(l.frame, l.sky == SkyLit::mirrored_too, surfaces, band.x + x, band.y + y, step,
                                r);
     };
     const auto shared = [&](int x, int y, const CoarseParts<N>& cells, int at_x, int at_y,
@@ -333,7 +333,7 @@ bool light_surfaces(const FrameBlock& frame, const DepthMaps& maps, const PixelR
   for (std::vector<Parts>* parts : {&lit.lights, &lit.diffuse}) parts->resize(area(rectangle));
   lit.mirrored.resize(maps.sky_is_map ? area(rectangle) : 0);
   const SurfaceTexels surfaces{rectangle, texels};
-  const Lighting lighting{frame, maps, maps.sky_is_map ? Sky::mirrored_too : Sky::diffuse, lit};
+  const Lighting lighting{frame, maps, maps.sky_is_map ? SkyLit::mirrored_too : SkyLit::diffuse, lit};
   if (maps.sky_is_map) {
     light_surfaces_by_cells<first_mirrored + 3>(lighting, surfaces);
   } else {
@@ -357,7 +357,7 @@ void light_ground_map(const FrameBlock& frame, const DepthMaps& maps, LitPixels&
                            std::array<float, parts>& seen) {
       return cells.find(at_x, at_y, 0.0F, Vec3::UnitY(), 1.0F, seen) ? Found::yes : Found::no;
     };
-    light_part<parts>({frame, maps, Sky::softly, lit}, band, surface_step, receivers, everywhere, shared);
+    light_part<parts>({frame, maps, SkyLit::softly, lit}, band, surface_step, receivers, everywhere, shared);
   });
 }
 

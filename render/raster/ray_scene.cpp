@@ -55,6 +55,11 @@ std::optional<Vec2> place_in(const Camera& camera, const Vec3& point) {
   return at;
 }
 
+/// Of the ways to face, the one along an axis that is on a direction's side.
+std::size_t facing(int axis, const Vec3& direction) {
+  return 2 * static_cast<std::size_t>(axis) + (direction[axis] < 0.0F ? 1 : 0);
+}
+
 /// Irradiance from the sky above the horizon, and below it from an open ground that the same sky lights, on
 /// six ways to face.
 std::array<Color, 6> ambient_light(const Sky& sky, const Ground& ground) {
@@ -70,7 +75,7 @@ std::array<Color, 6> ambient_light(const Sky& sky, const Ground& ground) {
     const bool of_ground = ground.enabled && d.y() < 0.0F;
     const Color light = of_ground ? Color::Zero() : sky_radiance(sky, d);
     for (int axis = 0; axis < 3; ++axis) {
-      const auto at = static_cast<std::size_t>(2 * axis + (d[axis] < 0.0F ? 1 : 0));
+      const std::size_t at = facing(axis, d);
       const float weight = std::abs(d[axis]) * 4.0F * std::numbers::pi_v<float> / count;
       sums[at] += weight * light;
       if (of_ground) below[at] += Color::Constant(weight);
@@ -216,7 +221,7 @@ Color RayScene::irradiance(const Vec3& point, const Vec3& normal, const Color& f
                            bool with_shadows) const {
   Color sum = Color::Zero();
   for (int axis = 0; axis < 3; ++axis) {
-    const auto at = static_cast<std::size_t>(2 * axis + (normal[axis] < 0.0F ? 1 : 0));
+    const std::size_t at = facing(axis, normal);
     sum += normal[axis] * normal[axis] * (at == facing_down ? from_below : ambient_[at]);
   }
   constexpr int side = 3;
@@ -225,8 +230,9 @@ Color RayScene::irradiance(const Vec3& point, const Vec3& normal, const Color& f
     if (with_shadows && is_hidden(point, vec3(r.center))) continue;
     float form = 0.0F;
     for (int k = 0; k < side * side; ++k) {
-      const float x = (static_cast<float>(k % side) + 0.5F) / side - 0.5F;
-      const float y = (static_cast<float>(k / side) + 0.5F) / side - 0.5F;
+      const int across = k % side, up = k / side;
+      const float x = (static_cast<float>(across) + 0.5F) / side - 0.5F;
+      const float y = (static_cast<float>(up) + 0.5F) / side - 0.5F;
       const Vec3 to = vec3(r.center + x * r.width * r.u + y * r.height * r.v) - point;
       const float square = to.squaredNorm();
       const float cosines = std::max(to.dot(normal), 0.0F) * std::max(-to.dot(vec3(r.normal)), 0.0F);

@@ -14,7 +14,7 @@ using std::numbers::pi;
 using Vec3d = Eigen::Vector3d;
 using Color3d = Eigen::Array3d;
 
-constexpr double least_share = 0.05;                // of the light from above the horizon
+constexpr double least_share_of_sky = 0.05;         // of the light from above the horizon
 constexpr double widest_radius = 9.0 * pi / 180.0;  // of the patch
 constexpr double least_of_peak = 0.05;  // of the brightest texel's luminance: what is connected to that
 constexpr double least_contrast = 5.0;  // of the patch's mean luminance to what surrounds it
@@ -156,7 +156,7 @@ std::optional<SkySun> sun_of_sky(const Sky& sky) {
   const Texels texels(map);
   const auto [peak, light] = brightest(texels);
   // The widest patch of the brightest texel's radiance.
-  if (peak.luminance * pi * widest_radius * widest_radius < least_share * light || !(light > 0.0))
+  if (peak.luminance * pi * widest_radius * widest_radius < least_share_of_sky * light || !(light > 0.0))
     return std::nullopt;
   const std::optional<Disc> disc = disc_around(texels, peak);
   if (!disc) return std::nullopt;
@@ -170,7 +170,7 @@ std::optional<SkySun> sun_of_sky(const Sky& sky) {
     towards += part * d;
     taken += part;
   });
-  if (taken < least_share * light || taken < least_contrast * disc->area * luminance_of(around))
+  if (taken < least_share_of_sky * light || taken < least_contrast * disc->area * luminance_of(around))
     return std::nullopt;
   towards.normalize();
 

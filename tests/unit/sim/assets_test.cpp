@@ -68,7 +68,7 @@ TEST_P(AssetsTetBunny, HoldsTheSurfaceInGoodTets) {
     EXPECT_NEAR(figures.min[k], fine.X.col(k).minCoeff(), 0.01);
     EXPECT_NEAR(figures.max[k], fine.X.col(k).maxCoeff(), 0.01);
   }
-  const Points moved = surface.positions(Eigen::Map<const VecX>(mesh.X.data(), mesh.X.size()));
+  const Points moved = surface.positions(as_q(mesh.X));
   EXPECT_LT((moved - fine.X).cwiseAbs().maxCoeff(), 1e-14);
 }
 

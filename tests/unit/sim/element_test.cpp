@@ -26,7 +26,7 @@ VecX random_vector(Eigen::Index size, unsigned seed, double amount) {
   return VecX::NullaryExpr(size, [&] { return uniform(random); });
 }
 
-VecX rest(const TetMesh& mesh) { return Eigen::Map<const VecX>(mesh.X.data(), mesh.X.size()); }
+VecX rest(const TetMesh& mesh) { return as_q(mesh.X); }
 
 std::vector<int> all_tets(const TetMesh& mesh) {
   std::vector<int> elements(mesh.tets.size());

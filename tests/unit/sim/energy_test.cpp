@@ -26,7 +26,7 @@ VecX random_vector(Eigen::Index size, unsigned seed, double amount) {
   return VecX::NullaryExpr(size, [&] { return uniform(random); });
 }
 
-VecX rest(const TetMesh& mesh) { return Eigen::Map<const VecX>(mesh.X.data(), mesh.X.size()); }
+VecX rest(const TetMesh& mesh) { return as_q(mesh.X); }
 
 std::shared_ptr<const BlockPattern> pattern_of(const TetMesh& mesh) {
   return std::make_shared<const BlockPattern>(mesh.vertex_count(), mesh.tets);

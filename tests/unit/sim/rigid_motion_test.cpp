@@ -8,7 +8,7 @@
 namespace lagomorph::sim {
 namespace rigid_motion_test {
 
-VecX at_rest(const TetMesh& mesh) { return Eigen::Map<const VecX>(mesh.X.data(), mesh.X.size()); }
+VecX at_rest(const TetMesh& mesh) { return as_q(mesh.X); }
 
 VecX moved(const VecX& q, const Vec3& t, const Vec3& omega, const Vec3& center) {
   VecX dq(q.size());

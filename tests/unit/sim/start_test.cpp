@@ -24,9 +24,7 @@ Model cube(const std::string& start, bool held, int seed = 0,
   return Model({body}, Vec3::Zero());
 }
 
-VecX rest_of(const Model& model) {
-  return Eigen::Map<const VecX>(model.mesh().X.data(), model.mesh().X.size());
-}
+VecX rest_of(const Model& model) { return as_q(model.mesh().X); }
 
 /// The largest distance to the rest shape after the best rigid motion. [Kabsch 1976]
 double distance_to_rest(const Model& model, const VecX& q) {

@@ -222,7 +222,7 @@ TEST(LoopSubdivision, OfASurfaceFollowsTheTets) {
   const TetMesh mesh = cube_mesh(3);
   const Surface coarse = Surface::boundary(mesh, 0), fine = coarse.subdivided(2);
   EXPECT_EQ(fine.triangles().size(), 16 * coarse.triangles().size());
-  const VecX q = Eigen::Map<const VecX>(mesh.X.data(), mesh.X.size());
+  const VecX q = as_q(mesh.X);
   VecX bent = q;
   for (Eigen::Index i = 0; i < bent.size(); i += 3) bent[i] += 0.2 * q[i + 1] * q[i + 1];
   const Subdivision direct = loop_subdivision(coarse.triangles(), coarse.vertex_count(), 2);

@@ -9,7 +9,7 @@
 namespace lagomorph::sim {
 namespace surface_test {
 
-VecX flat(const Points& x) { return Eigen::Map<const VecX>(x.data(), x.size()); }
+VecX flat(const Points& x) { return as_q(x); }
 
 /// x(X) = A X + t, which linear shape functions reproduce everywhere, outside of the tets too.
 Points affine(const Points& X) {

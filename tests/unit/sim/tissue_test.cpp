@@ -38,7 +38,7 @@ RegionSettings half_of_cube() {
 VecX shaken(const TetMesh& mesh) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-0.05, 0.05);
-  VecX q = Eigen::Map<const VecX>(mesh.X.data(), mesh.X.size());
+  VecX q = as_q(mesh.X);
   for (double& x : q) x += uniform(random);
   return q;
 }
@@ -139,7 +139,7 @@ TEST(Tissue, OfTwoStiffnessesInSeriesStretchesAsTwoSprings) {
   right.box = BoxSelector{Vec3(1, 0, 0), Vec3(1, 1, 1)};
   body.settings.pin = {left, right};
   const Model model({body}, Vec3::Zero());
-  VecX q = Eigen::Map<const VecX>(body.mesh.X.data(), body.mesh.X.size());
+  VecX q = as_q(body.mesh.X);
   for (int v = 0; v < body.mesh.vertex_count(); ++v)
     if (body.mesh.X(v, 0) == 1.0) q[3 * v] += kPulled;
   ASSERT_TRUE(is_good(static_equilibrium(model, SolverSettings{.tolerance = 1e-10}, q).status));
