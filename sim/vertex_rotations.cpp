@@ -12,8 +12,8 @@ namespace lagomorph::sim {
 
 namespace {
 
-constexpr int kVertices = 512;  // of a piece of work
-constexpr int kMostSteps = 20;
+constexpr int kPolarVertices = 512;  // of a piece of work
+constexpr int kMostPolarSteps = 20;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ Mat3 nearest_rotation(const Mat3& F) {
   const double J = F.determinant();
   if (!(J > 0.0)) return Mat3::Identity();
   Mat3 R = F / std::cbrt(J);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMostPolarSteps; ++step) {
     Mat3 cofactors;
     cofactors << R.col(1).cross(R.col(2)), R.col(2).cross(R.col(0)), R.col(0).cross(R.col(1));
     const double determinant = R.col(0).dot(cofactors.col(0));
@@ -56,7 +56,7 @@ VertexRotations vertex_rotations(const TetMesh& mesh, const VecX& q) {
     if (!mesh.is_quadratic(t)) continue;
     for (const int vertex : mesh.midsides[t]) add(vertex);
   }
-  parallel_for(mesh.vertex_count(), kVertices, [&](int begin, int end) {
+  parallel_for(mesh.vertex_count(), kPolarVertices, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       Mat3& R = turned[static_cast<std::size_t>(i)];
       double& volume = volumes[static_cast<std::size_t>(i)];
