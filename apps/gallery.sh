@@ -13,7 +13,11 @@ while read -r name frame back_end samples size; do
   say "$name, frame $frame"
   run=$root/out/gallery/$name
   quality=()
-  if [ "$back_end" = path ]; then quality=(--set "render.samples=$samples"); fi
+  if [ "$back_end" = path ]; then
+    quality=(--set "render.samples=$samples")
+  elif [ "$samples" != - ]; then
+    quality=(--set "render.raster.supersample=$samples")
+  fi
   "$root/out/build/release/lagomorph" run "$root/assets/scenes/$name.toml" --out "$run" --frames "$frame" --force \
     --set "render.backend=$back_end" "${quality[@]}" --set "render.width=${size%x*}" --set "render.height=${size#*x}" \
     --set render.png_compression=9
@@ -30,5 +34,5 @@ forces 60 raster - 960x540
 turntable 100 raster - 640x360
 side_by_side 16 raster - 640x360
 ears 36 path 1024 640x360
-mirrors 9 raster - 640x360
+mirrors 9 raster 3 640x360
 SCENES
