@@ -25,7 +25,7 @@ struct CourseModel {
 
   CourseModel(const sim::Model& m, double mu, double lambda)
       : model(m), psi{mu, lambda}, M(m.mass()), P(m.pins().matrix()) {
-    const VecX X = as_q(m.mesh().X);
+    const VecX X = sim::as_q(m.mesh().X);
     for (const sim::Tet& tet : m.mesh().tets) {
       const sim::TetCorners corners = sim::gather_corners(X, tet);
       D.push_back(sim::dphi_dX(corners));
