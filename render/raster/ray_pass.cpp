@@ -243,6 +243,7 @@ private:
     if (surfaces > 0 && inside.share < 1.0F) {
       Path base = p;
       base.share *= (1.0F - mirrored) * (1.0F - inside.share);
+      if (surface.inside) base.share *= inside.share * inside.within;  // lit by what comes through
       add(base, scene_.of_mesh(camera_, pictures_, hit, met, surface));
     }
     if (surfaces == 0) {

@@ -141,7 +141,8 @@ RayScene::RayScene(const RenderScene& scene, const RenderScene& drawn)
     surface.diffuse = stand_in.base_color;
     if (surface.by_rays.any()) roughest_ = std::max(roughest_, surface.alpha);
     if (surface.by_rays.behind)
-      surface.inside = {path::Absorption(m), std::max(m.ior, 1.001F), clear_part(m)};
+      surface.inside = {path::Absorption(m), std::max(m.ior, 1.001F), clear_part(m),
+                        path::Absorption(m).transmittance(thickness)};
     if (surface.by_rays.mirrored) {
       if (m.coat > 0.0F) {
         surface.mirror.emplace(coat_of(m), m.coat);

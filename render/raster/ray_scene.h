@@ -56,7 +56,8 @@ public:
   struct Inside {
     path::Absorption absorption;
     float ior;
-    float share;  // of the light that comes through the surface, which goes on inside
+    float share;   // of the light that comes through the surface, which goes on inside
+    Color within;  // what is left of it over the mean thickness
   };
   /// A dielectric or a metal.
   struct Mirror {
