@@ -43,8 +43,7 @@ std::string rgb(const render::Color& c) { return fmt::format("{:.6g} {:.6g} {:.6
 /// Blender's reading of the classic keys: Ns = 1000 (1 - roughness)^2, Ks its Specular, where 0.5 is an
 /// index of 1.5, and with a mirror (illum 3, 6) Ka how much of a metal it is.
 std::string material_entry(const std::string& name, const render::Material& look) {
-  const float r0 = (look.ior - 1.0F) / (look.ior + 1.0F);
-  const float specular = std::min(r0 * r0 / 0.08F, 1.0F);
+  const float specular = std::min(render::dielectric_f0(look) / 0.08F, 1.0F);
   const float smooth = 1.0F - look.roughness;
   const bool is_metal = look.metallic > 0.0F, is_thin = look.opacity < 1.0F;
   const int model = is_metal ? (is_thin ? 6 : 3) : (is_thin ? 9 : 2);

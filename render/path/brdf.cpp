@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/albedo.h"
 #include "render/coat_albedo.h"
 
 namespace lagomorph::render::path {
 
 Brdf::Brdf(const Material& m, float base_share) {
   BrdfConstants& c = constants_;
-  const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
-  c.coat_f0 = r * r;
+  c.coat_f0 = dielectric_f0(m);
   const float coat_f90 = std::min(1.0F, 50.0F * c.coat_f0);
   c.alpha = std::max(m.roughness * m.roughness, 1e-3F);  // sharper is a mirror but for what float resolves
   constexpr int intervals = CosineTable::intervals;

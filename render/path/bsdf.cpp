@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/albedo.h"
 #include "render/path/microfacet.h"
 #include "render/path/sampler.h"
 
@@ -56,19 +57,17 @@ Vec3 sample_hemisphere(Pair s) {
   return {sine * std::cos(2.0F * pi * s.v), sine * std::sin(2.0F * pi * s.v), s.u};
 }
 
-Material coat_material(const Material& m) { return {Color::Zero(), m.coat_roughness, 0.0F, 1.5F}; }
-
 }  // namespace
 
 struct Bsdf::Layers {
   explicit Layers(const Material& m)
-      : transmission(m.transmission * (1.0F - m.metallic)),
+      : transmission(clear_part(m)),
         cloudy(m.subsurface),
         coat(m.coat),
         sheen_color(m.sheen * m.sheen_tint),
         sheen(sheen_color.maxCoeff()),
         glass(transmission > 0.0F ? m.ior : 1.5F, m.roughness),
-        coat_lobe(coat_material(m)),
+        coat_lobe(coat_of(m)),
         sheen_lobe(m.sheen_roughness),
         absorption(m),
         inside(m),

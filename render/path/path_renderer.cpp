@@ -56,8 +56,7 @@ public:
   void set_scene(const RenderScene& scene) override {
     check_scene(scene);
     scene_ = scene;
-    if (settings_.transparent) scene_.background = Color::Zero();
-    scene_.ground.shadow_catcher = scene_.ground.shadow_catcher && settings_.transparent;
+    apply_transparency(settings_, scene_);
     arena_.execute([&] { geometry_.emplace(scene_); });
     shading_.emplace(scene_);
   }

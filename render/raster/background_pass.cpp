@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "render/path/lane_math.h"
 #include "render/raster/ground_tiles.h"
 #include "render/raster/pixel_ray.h"
 #include "render/raster/ray_scene.h"
@@ -50,7 +51,7 @@ void BackgroundPass::catch_shadows(const FrameBlock& block, const StillParts& st
   const auto width = static_cast<std::size_t>(still.width);
   caught_.assign(still.pixels(), 0.0F);
   const bool from_above = ground_is_below(block);
-  const auto luminance = [](const float* c) { return 0.2126F * c[0] + 0.7152F * c[1] + 0.0722F * c[2]; };
+  const auto luminance = [](const float* c) { return path::luminance({c[0], c[1], c[2]}); };
   tbb::parallel_for(drawn.y, drawn.y + drawn.height, [&](int y) {
     for (int x = drawn.x; x < drawn.x + drawn.width; ++x) {
       const std::size_t from_below = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);

@@ -8,7 +8,6 @@
 #include "render/albedo.h"
 #include "render/raster/caster_depths.h"
 #include "render/raster/light_view.h"
-#include "render/raster/optics_stand_in.h"
 #include "render/raster/ray_scene.h"
 #include "render/raster/shaders/shaders.h"
 #include "render/raster/sky_light.h"
@@ -80,11 +79,8 @@ Color hiding_albedo(const RenderScene& scene) {
   Color sum = Color::Zero();
   float weights = 1e-6F;
   for (const Mesh& mesh : scene.meshes) {
-    const Material& m = mesh.material;
-    float weight = m.opacity;
-    if (drawn_by_rays(scene, mesh).behind)
-      weight -= light_through(m, mean_chord(mesh.positions, mesh.triangles));
-    sum += weight * albedo(m);
+    const float weight = opacity_to_light(mesh, drawn_by_rays(scene, mesh).behind);
+    sum += weight * albedo(mesh.material);
     weights += weight;
   }
   return sum / weights;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "render/raster/optics_stand_in.h"
 #include "render/raster/ray_scene.h"
 
 namespace lagomorph::render::raster {
@@ -58,9 +57,7 @@ MeshBuffers::MeshBuffers(const Mesh& mesh, bool clear)
       closed_(is_closed(mesh.triangles, mesh.positions)),
       colored_(!mesh.colors.empty()),
       clear_(clear),
-      opacity_to_light_(clear
-                            ? 1.0F - light_through(mesh.material, mean_chord(mesh.positions, mesh.triangles))
-                            : mesh.material.opacity) {
+      opacity_to_light_(raster::opacity_to_light(mesh, clear)) {
   glBindVertexArray(vertex_array_.id());
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles_.size() * sizeof(Triangle)),

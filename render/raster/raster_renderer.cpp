@@ -108,8 +108,7 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
   check_scene(scene);
   context_->make_current();
   scene_ = with_stand_ins(scene);
-  if (settings_.transparent) scene_.background = Color::Zero();
-  scene_.ground.shadow_catcher = scene_.ground.shadow_catcher && settings_.transparent;
+  apply_transparency(settings_, scene_);
   has_ground_ = scene_.ground.enabled;
   positions_.clear();
   for (const Mesh& mesh : scene.meshes) positions_.push_back(mesh.positions);

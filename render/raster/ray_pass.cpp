@@ -230,8 +230,7 @@ private:
   /// Through the surface of a clear mesh and back from it.
   void pass(const Path& p, const path::SurfacePoint& surface, const path::MeshHit& hit,
             const path::TriangleHit& met, int surfaces) {
-    const std::uint32_t mesh = hit.mesh;
-    const RayScene::Surface& of = scene_.surface(mesh);
+    const RayScene::Surface& of = scene_.surface(hit.mesh);
     const RayScene::Inside& inside = *of.inside;
     const float eta = surface.inside ? 1.0F / inside.ior : inside.ior;
     const Vec3 wo = -p.ray.direction;
@@ -259,7 +258,7 @@ private:
     }
     if (on.share.maxCoeff() > 0.0F) {
       on.ray = {surface.beyond, path::refracted(wo, h, eta).normalized(), 1.0F};
-      on.inside = surface.inside ? path::MeshHit::none : mesh;
+      on.inside = surface.inside ? path::MeshHit::none : hit.mesh;
       next_.push_back(on);
     }
     if (back.share.maxCoeff() > 0.0F) {
@@ -275,8 +274,7 @@ private:
   int samples_, multisample_;
   bool is_rough_;  // rays are spread
   std::vector<Color> light_;
-  std::vector<float>
-      replaced_;  // samples of each pixel whose eye is inside of a mesh, which OpenGL leaves out
+  std::vector<float> replaced_;  // samples of each pixel that begin inside of a mesh, which OpenGL leaves out
   path::FrameSamples numbers_;
   std::vector<Path> paths_, next_;
   std::vector<Ray> rays_;

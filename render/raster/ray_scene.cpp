@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "render/albedo.h"
 #include "render/ground_texture.h"
 #include "render/path/dielectric.h"
 #include "render/raster/optics_stand_in.h"
@@ -14,20 +15,10 @@
 namespace lagomorph::render::raster {
 namespace {
 
+constexpr float least_facing = 0.15F;         // cosine of what the picture shows well enough
 constexpr float least_facing_ground = 0.06F;  // likewise of the ground
 constexpr std::size_t facing_down = 3;        // of ways to face
-constexpr float least_facing = 0.15F;         // cosine of what the picture shows well enough
 constexpr float roughest_mirror = 0.35F;      // of the ground, that rays show
-
-float clear_part(const Material& m) { return (1.0F - m.metallic) * m.transmission; }
-
-/// The varnish alone.
-Material coat_of(const Material& m) { return {Color::Zero(), m.coat_roughness, 0.0F, 1.5F}; }
-
-float dielectric_f0(const Material& m) {
-  const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
-  return r * r;
-}
 
 Color bilinear(std::span<const float> picture, int width, int height, const Vec2& at) {
   const float x = std::clamp(at.x() - 0.5F, 0.0F, static_cast<float>(width - 1));
@@ -108,8 +99,12 @@ float light_through(const Material& m, float thickness) {
   const Color inside = path::Absorption(m).transmittance(thickness);
   // What is bent comes together elsewhere.
   const float straight = 1.0F - 0.6F * std::min(2.0F * (m.ior - 1.0F), 1.0F);
-  return straight * clear_part(m) * once * once *
-         (0.2126F * inside.x() + 0.7152F * inside.y() + 0.0722F * inside.z());
+  return straight * clear_part(m) * once * once * path::luminance(path::f3(inside));
+}
+
+float opacity_to_light(const Mesh& mesh, bool clear) {
+  const Material& m = mesh.material;
+  return clear ? 1.0F - light_through(m, mean_chord(mesh.positions, mesh.triangles)) : m.opacity;
 }
 
 bool mirrors_by_rays(const Ground& ground) {

@@ -28,6 +28,8 @@ ByRays drawn_by_rays(const RenderScene&, const Mesh&);
 bool is_smooth_mirror(const Material&);
 /// Part of the light that comes through a mesh with a clear inside whose mean thickness is `thickness` [m].
 float light_through(const Material&, float thickness);
+/// Part of the light that a mesh stops; `clear`: it is drawn by rays.
+float opacity_to_light(const Mesh&, bool clear);
 /// Whether rays show the meshes that the ground mirrors: it is smooth enough.
 bool mirrors_by_rays(const Ground&);
 
@@ -35,7 +37,7 @@ bool mirrors_by_rays(const Ground&);
 constexpr float smooth_alpha = 2e-3F;  // up to which they are drawn as if they were smooth
 constexpr float rough_alpha = 1e-2F;
 float alpha_for_rays(const Material&);
-/// Suns that few rays would miss: their highlights are OpenGL's. `angle`: [sr]
+/// Suns that few rays would miss: their highlights are OpenGL's [sr].
 constexpr float small_sun = 3e-3F;
 
 /// Linear colours, interleaved, rows from the top: without any mesh, and without the clear ones, of which

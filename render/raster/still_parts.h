@@ -19,8 +19,7 @@ struct StillParts {
   int lights = 0;
   std::vector<float> picture;  // linear colour, interleaved
   /// Half floats, a plane each, in the order of still_fragment's outputs: red, green, blue of what the sky's
-  /// light becomes, of the sky mirrored, of each light, and of
-  /// the mirrored mesh.
+  /// light becomes, of the sky mirrored, of each light, and of the mirrored mesh.
   std::unique_ptr<std::uint16_t[]> planes;                 // of the tiles that were asked for
   Color open = Color::Zero(), from_below = Color::Zero();  // irradiance of the ground with nothing before it
 

@@ -15,10 +15,10 @@ constexpr int sheen_table_size = 64;
 
 SurfaceBlock surface_block(const Material& material, float thickness, ByRays by_rays) {
   const Material m = optics_stand_in(material, thickness, by_rays);
-  const float r = (m.ior - 1.0F) / (m.ior + 1.0F);
   const bool mirrors = !by_rays.mirrored || material.coat > 0.0F;  // the coat is another mirror
-  return {vec4(m.base_color, mirrors ? 0.0F : -1.0F), Vec4(m.roughness, m.metallic, r * r, m.opacity),
-          vec4(albedo(material), 0.0F), vec4(Color(m.sheen * m.sheen_tint), 0.5F)};
+  return {vec4(m.base_color, mirrors ? 0.0F : -1.0F),
+          Vec4(m.roughness, m.metallic, dielectric_f0(m), m.opacity), vec4(albedo(material), 0.0F),
+          vec4(Color(m.sheen * m.sheen_tint), 0.5F)};
 }
 
 }  // namespace
