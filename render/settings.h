@@ -10,6 +10,7 @@ namespace lagomorph::render {
 struct RasterSettings {
   int multisample = 4;      // 1 or 4 (llvmpipe's most)
   int supersample = 1;      // the picture is drawn so many times as wide and high, 1 .. 4
+  bool rays = true;         // glass, mirrors and smooth grounds show what rays see in them
   int shadow_map = 2048;    // pixels along a side, a power of two in 256 .. 8192
   int shadow_samples = 32;  // taps of the soft shadow filter, 1 .. 64
 };

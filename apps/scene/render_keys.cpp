@@ -22,6 +22,10 @@ void visit_raster(render::RasterSettings& r, KeyVisitor& v) {
              "pictures are drawn so many times as wide and high, then reduced: highlights and textures are "
              "smooth as well as edges"},
         &r.supersample);
+  v.key({.name = "rays",
+         .meaning = "clear bodies, mirrors, coats and smooth grounds show what rays see in them; false: a "
+                    "quicker picture without"},
+        &r.rays);
   v.key({.name = "shadow_map",
          .unit = "pixels",
          .bounds = between(256, 8192),

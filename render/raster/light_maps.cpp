@@ -8,7 +8,6 @@
 #include "render/albedo.h"
 #include "render/raster/caster_depths.h"
 #include "render/raster/light_view.h"
-#include "render/raster/ray_scene.h"
 #include "render/raster/shaders/shaders.h"
 #include "render/raster/sky_light.h"
 #include "render/raster/sky_model.h"
@@ -75,11 +74,12 @@ Sphere bounding_sphere(std::span<const std::vector<Vec3>> positions, const Eigen
 }
 
 /// The mean albedo of what hides the sky from the ground.
-Color hiding_albedo(const RenderScene& scene) {
+Color hiding_albedo(const RenderScene& scene, std::span<const ByRays> by_rays) {
   Color sum = Color::Zero();
   float weights = 1e-6F;
-  for (const Mesh& mesh : scene.meshes) {
-    const float weight = opacity_to_light(mesh, drawn_by_rays(scene, mesh).behind);
+  for (std::size_t k = 0; k < scene.meshes.size(); ++k) {
+    const Mesh& mesh = scene.meshes[k];
+    const float weight = opacity_to_light(mesh, by_rays[k].behind);
     sum += weight * albedo(mesh.material);
     weights += weight;
   }
@@ -116,8 +116,8 @@ void LightMaps::set_sky_map(const RenderScene& scene, const SkyMap& seen, FrameB
   check_gl("the sky's map");
 }
 
-void LightMaps::set_scene(const RenderScene& given, const RenderScene& scene, const LightFeatures& features,
-                          FrameBlock& block) {
+void LightMaps::set_scene(const RenderScene& given, const RenderScene& scene, const DrawnByRays& by_rays,
+                          const LightFeatures& features, FrameBlock& block) {
   if (!ground_program_ || !(features == features_)) {
     features_ = features;
     using Parts = Program::Parts;
@@ -150,7 +150,7 @@ void LightMaps::set_scene(const RenderScene& given, const RenderScene& scene, co
   block.zenith = vec4(Color(scene.sky.strength * scene.sky.zenith), 0.0F);
   block.horizon = vec4(Color(scene.sky.strength * scene.sky.horizon), 0.0F);
   block.background = scene.background ? vec4(*scene.background, 1.0F) : Vec4::Zero();
-  block.mesh_albedo = vec4(hiding_albedo(given), 0.0F);
+  block.mesh_albedo = vec4(hiding_albedo(given, by_rays.meshes), 0.0F);
   const Ground& g = scene.ground;
   block.ground = Vec4(g.height, g.radius, g.fade_start, 0.0F);
   show_ground(g.enabled, block);

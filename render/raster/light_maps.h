@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "render/raster/by_rays.h"
 #include "render/raster/caster_grid.h"
 #include "render/raster/frame_block.h"
 #include "render/raster/gl_objects.h"
@@ -28,7 +29,8 @@ public:
 
   /// Lights, sky and ground of a scene into the frame's block, for shaders with these features: of what is
   /// drawn in its place (with_stand_ins()), but for its meshes and the map of the sky that the camera sees.
-  void set_scene(const RenderScene&, const RenderScene& drawn, const LightFeatures&, FrameBlock&);
+  void set_scene(const RenderScene&, const RenderScene& drawn, const DrawnByRays&, const LightFeatures&,
+                 FrameBlock&);
   /// Whether the ground is drawn; what is fitted is to be drawn again.
   void show_ground(bool shown, FrameBlock&);
   /// Fits the maps to new positions and says so in the frame's block.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "render/raster/ray_scene.h"
+#include "render/raster/by_rays.h"
 
 namespace lagomorph::render::raster {
 namespace {

@@ -36,29 +36,34 @@ Material optics_stand_in(const Material& m, float thickness, ByRays by_rays) {
   return drawn;
 }
 
-std::vector<std::string> optics_remarks(const RenderScene& scene) {
+std::vector<std::string> optics_remarks(const RenderScene& scene, const RasterSettings& settings) {
+  const DrawnByRays by_rays = drawn_by_rays(scene, settings);
+  const std::string why_not =
+      settings.rays ? ", beside colours or other bodies' opacity" : ", for raster.rays is off";
   std::vector<std::string> remarks;
-  for (const Mesh& mesh : scene.meshes) {
+  for (std::size_t k = 0; k < scene.meshes.size(); ++k) {
+    const Mesh& mesh = scene.meshes[k];
     const Material& m = mesh.material;
     std::string what;
-    const auto add = [&](bool there, const char* drawn) {
-      if (there) what += (what.empty() ? "" : "; ") + std::string(drawn);
+    const auto add = [&](bool there, const std::string& drawn) {
+      if (there) what += (what.empty() ? "" : "; ") + drawn;
     };
     if (m.transmission > 0.0F && m.metallic < 1.0F) {
-      add(true, drawn_by_rays(scene, mesh).behind
-                    ? "its shadow is as light as it is clear, without colours and caustics"
-                    : "transmission is an opaque base of absorption_color through its mean thickness, beside "
-                      "colours or other bodies' opacity");
+      add(true,
+          by_rays.meshes[k].behind
+              ? std::string("its shadow is as light as it is clear, without colours and caustics")
+              : "transmission is an opaque base of absorption_color through its mean thickness" + why_not);
     }
     add(m.subsurface > 0.0F, "subsurface is an opaque base of subsurface_color");
-    add(m.coat > 0.0F && !drawn_by_rays(scene, mesh).mirrored,
+    add(m.coat > 0.0F && !by_rays.meshes[k].mirrored,
         "coat sharpens the highlights instead of adding its own");
-    add(is_smooth_mirror(m) && m.metallic > 0.0F && !drawn_by_rays(scene, mesh).mirrored,
-        "it mirrors no bodies beside see-through ones");
+    add(is_smooth_mirror(m) && m.metallic > 0.0F && !by_rays.meshes[k].mirrored,
+        settings.rays ? "it mirrors no bodies beside see-through ones"
+                      : "it mirrors no bodies, for raster.rays is off");
     if (!what.empty()) remarks.push_back("look of '" + mesh.name + "': " + what);
   }
   const Material& ground = scene.ground.material;
-  if (scene.ground.enabled && !mirrors_by_rays(scene.ground) &&
+  if (scene.ground.enabled && !by_rays.ground &&
       (ground.metallic > 0.0F || (ground.ior > 1.0F && ground.roughness < 0.5F)))
     remarks.emplace_back("the ground mirrors lights and sky, and of bodies only that they hide the sky");
   return remarks;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/raster/ray_scene.h"
+#include "render/raster/by_rays.h"
 #include "render/render_scene.h"
 
 /// What the rasterizer draws in place of the principled material's clear and cloudy insides, coat and sheen.
@@ -19,6 +19,6 @@ float mean_chord(std::span<const Vec3> positions, std::span<const Triangle>);
 /// that mirrors the base is darker by it. The same material where it has none of these.
 Material optics_stand_in(const Material&, float thickness, ByRays);
 /// Which meshes are drawn so and how, a line each.
-std::vector<std::string> optics_remarks(const RenderScene&);
+std::vector<std::string> optics_remarks(const RenderScene&, const RasterSettings&);
 
 }  // namespace lagomorph::render::raster

@@ -112,17 +112,15 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
   has_ground_ = scene_.ground.enabled;
   positions_.clear();
   for (const Mesh& mesh : scene.meshes) positions_.push_back(mesh.positions);
-  gl_->shapes.set_scene(scene);
+  const DrawnByRays by_rays = drawn_by_rays(scene, settings_.raster);
+  gl_->shapes.set_scene(scene, by_rays);
   has_colors_ = gl_->shapes.any(&MeshBuffers::colored);
   gl_->rays.reset();
-  if (mirrors_by_rays(scene.ground) ||
-      std::any_of(scene.meshes.begin(), scene.meshes.end(),
-                  [&](const Mesh& mesh) { return drawn_by_rays(scene, mesh).any(); }))
-    gl_->rays.emplace(scene, scene_);
+  if (by_rays.any()) gl_->rays.emplace(scene, scene_, by_rays);
   const LightFeatures features = light_features(scene, scene_);
-  gl_->surfaces.set_scene(scene, scene_.lights, features.sheen);
-  gl_->maps.set_scene(scene, scene_, features, block_);
-  gl_->background.set_scene(scene_, features, gl_->surfaces.ground());
+  gl_->surfaces.set_scene(scene, by_rays, scene_.lights, features.sheen);
+  gl_->maps.set_scene(scene, scene_, by_rays, features, block_);
+  gl_->background.set_scene(scene_, by_rays.ground, features, gl_->surfaces.ground());
   gl_->bodies.set_scene(scene_.lights, features, has_colors_);
   gl_->channels.set_scene(features, has_colors_);
   lights_are_stale_ = true;
@@ -225,7 +223,7 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
     targets.clear_seen();
   }
   std::vector<float>& color = image.add(color_channel, 3);
-  gl_->background.draw(block_, gl_->maps, drawn, color);
+  gl_->background.draw(block_, gl_->maps, gl_->surfaces, drawn, color);
   const BodyPass::View bodies = view_of_bodies(camera, drawn);
   if (gl_->rays) {
     draw_with_rays(camera, bodies, color);

@@ -46,7 +46,6 @@ public:
         at_(at),
         samples_(samples),
         multisample_(multisample),
-        is_rough_(samples > fewest_rays),
         light_(static_cast<std::size_t>(at.width) * static_cast<std::size_t>(at.height), Color::Zero()),
         replaced_(light_.size(), 0.0F),
         numbers_(0, 0, samples) {}
@@ -96,14 +95,15 @@ private:
     std::uint32_t pixel;   // of the tile
     std::uint32_t sample;  // of the pixel
     std::uint32_t inside;  // the mesh; MeshHit::none: it is outside
+    bool is_spread;        // by a rough surface
   };
 
   void add(const Path& p, const Color& radiance) { light_[p.pixel] += p.share * radiance; }
 
-  /// What a rough surface spreads a bright lamp into would be grains.
+  /// What a rough surface spreads a bright lamp, or patch of the sky, into would be grains.
   void add_light(const Path& p, const Color& radiance) {
     const Color light = p.share * radiance;
-    light_[p.pixel] += is_rough_ ? Color(light.min(most_of_lamp)) : light;
+    light_[p.pixel] += p.is_spread ? Color(light.min(most_of_lamp)) : light;
   }
 
   void begin() {
@@ -113,7 +113,7 @@ private:
       for (int s = 0; s < samples_; ++s) {
         const Vec2 place = multisample_ > 1 ? sample_place(s, samples_) : Vec2(0.5F, 0.5F);
         paths_.push_back({camera_.ray(static_cast<float>(x) + place.x(), static_cast<float>(y) + place.y()),
-                          Color::Ones(), k, static_cast<std::uint32_t>(s), path::MeshHit::none});
+                          Color::Ones(), k, static_cast<std::uint32_t>(s), path::MeshHit::none, false});
       }
     }
   }
@@ -137,7 +137,7 @@ private:
       step_on();
     }
     // The rest is as bright as where it goes.
-    for (const Path& p : paths_) add(p, scene_.sky(p.ray.direction));
+    for (const Path& p : paths_) add_light(p, scene_.sky(p.ray.direction));
   }
 
   void look_at_mesh(std::size_t i) {
@@ -175,6 +175,7 @@ private:
     const Vec3 direction = path::reflected(-p.ray.direction, h).normalized();
     if (direction.dot(surface.normal) <= 0.0F) return;
     p.ray = {surface.origin, direction, 1.0F};
+    p.is_spread = p.is_spread || alpha > 0.0F;
     next_.push_back(p);
   }
 
@@ -197,7 +198,7 @@ private:
       const Vec3 point = geometry.ground_point(p.ray, ground);
       add(p, scene_.of_ground(camera_, pictures_, point, p.ray.direction));
     } else if (!on_mesh) {
-      add(p, scene_.sky(p.ray.direction));
+      add_light(p, scene_.sky(p.ray.direction));
     } else {
       const path::SurfacePoint surface = geometry.arrive(p.ray, hit, met);
       const RayScene::Surface& of = scene_.surface(hit.mesh);
@@ -237,6 +238,7 @@ private:
     const Vec3 h = facet(p, surface, of.alpha, surfaces);
     const float mirrored = path::fresnel(std::min(wo.dot(h), 1.0F), eta);
     Path on = p, back = p;
+    on.is_spread = back.is_spread = p.is_spread || of.alpha > 0.0F;
     on.share *= (1.0F - mirrored) * inside.share;
     back.share *= mirrored;
     if (surfaces > 0 && inside.share < 1.0F) {
@@ -251,8 +253,8 @@ private:
       // Of a dim one the other takes the share.
       const float least = surfaces < late ? least_share : least_late_share;
       if (back.share.maxCoeff() < least || on.share.maxCoeff() < least) {
-        const bool back_is_more = mirrored > 0.5F;
-        (back_is_more ? back : on).share = p.share;
+        const bool back_is_more = back.share.maxCoeff() > on.share.maxCoeff();
+        (back_is_more ? back : on).share = on.share + back.share;
         (back_is_more ? on : back).share = Color::Zero();
       }
     }
@@ -272,7 +274,6 @@ private:
   const DrawnPictures& pictures_;
   PixelRectangle at_;  // y from the top
   int samples_, multisample_;
-  bool is_rough_;  // rays are spread
   std::vector<Color> light_;
   std::vector<float> replaced_;  // samples of each pixel that begin inside of a mesh, which OpenGL leaves out
   path::FrameSamples numbers_;

@@ -18,7 +18,6 @@ namespace {
 constexpr float least_facing = 0.15F;         // cosine of what the picture shows well enough
 constexpr float least_facing_ground = 0.06F;  // likewise of the ground
 constexpr std::size_t facing_down = 3;        // of ways to face
-constexpr float roughest_mirror = 0.35F;      // of the ground, that rays show
 
 Color bilinear(std::span<const float> picture, int width, int height, const Vec2& at) {
   const float x = std::clamp(at.x() - 0.5F, 0.0F, static_cast<float>(width - 1));
@@ -79,45 +78,7 @@ std::array<Color, 6> ambient_light(const Sky& sky, const Ground& ground) {
 
 }  // namespace
 
-bool is_smooth_mirror(const Material& m) {
-  const Material mirror = m.coat > 0.0F ? coat_of(m) : m;
-  return alpha_for_rays(mirror) <= rough_alpha && (mirror.metallic > 0.0F || mirror.ior > 1.0F);
-}
-
-ByRays drawn_by_rays(const RenderScene& scene, const Mesh& mesh) {
-  if (std::any_of(scene.meshes.begin(), scene.meshes.end(),
-                  [](const Mesh& m) { return m.material.opacity < 1.0F; }))
-    return {};
-  const Material& m = mesh.material;
-  const bool behind = clear_part(m) > 0.0F && mesh.colors.empty();
-  return {behind, is_smooth_mirror(m) && !(behind && m.coat > 0.0F)};
-}
-
-float light_through(const Material& m, float thickness) {
-  // In and out through surfaces at the mean angle.
-  const float once = 1.0F - path::fresnel(2.0F / 3.0F, std::max(m.ior, 1.001F));
-  const Color inside = path::Absorption(m).transmittance(thickness);
-  // What is bent comes together elsewhere.
-  const float straight = 1.0F - 0.6F * std::min(2.0F * (m.ior - 1.0F), 1.0F);
-  return straight * clear_part(m) * once * once * path::luminance(path::f3(inside));
-}
-
-float opacity_to_light(const Mesh& mesh, bool clear) {
-  const Material& m = mesh.material;
-  return clear ? 1.0F - light_through(m, mean_chord(mesh.positions, mesh.triangles)) : m.opacity;
-}
-
-bool mirrors_by_rays(const Ground& ground) {
-  const Material& m = ground.material;
-  return ground.enabled && m.roughness <= roughest_mirror && (m.metallic > 0.0F || m.ior > 1.0F);
-}
-
-float alpha_for_rays(const Material& m) {
-  const float alpha = m.roughness * m.roughness;
-  return alpha <= smooth_alpha ? 0.0F : alpha;
-}
-
-RayScene::RayScene(const RenderScene& scene, const RenderScene& drawn)
+RayScene::RayScene(const RenderScene& scene, const RenderScene& drawn, const DrawnByRays& by_rays)
     : geometry_(scene),
       ambient_(ambient_light(drawn.sky, scene.ground)),
       ground_(scene.ground),
@@ -128,7 +89,7 @@ RayScene::RayScene(const RenderScene& scene, const RenderScene& drawn)
   for (const Mesh& mesh : scene.meshes) {
     const Material& m = mesh.material;
     Surface& surface = surfaces_.emplace_back();
-    surface.by_rays = drawn_by_rays(scene, mesh);
+    surface.by_rays = by_rays.meshes[surfaces_.size() - 1];
     const float thickness = mean_chord(mesh.positions, mesh.triangles);
     const Material stand_in = optics_stand_in(m, thickness, {false, surface.by_rays.mirrored});
     surface.alpha = alpha_for_rays(!surface.by_rays.behind && m.coat > 0.0F ? coat_of(m) : m);

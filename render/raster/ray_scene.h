@@ -10,33 +10,13 @@
 #include "render/path/light.h"
 #include "render/path/medium.h"
 #include "render/path/scene_geometry.h"
+#include "render/raster/by_rays.h"
 #include "render/raster/receivers.h"
 #include "render/render_scene.h"
 
 /// What rays of the rasterizer meet, and the light that comes from there.
 namespace lagomorph::render::raster {
 
-/// What of a mesh is drawn by rays: nothing where a mesh of the scene is see-through.
-struct ByRays {
-  bool behind = false;    // what is seen through its clear inside, where it has no colours of its vertices
-  bool mirrored = false;  // what its coat or, without one, its surface mirrors where that is so smooth that
-                          // few rays show it without noise
-  bool any() const { return behind || mirrored; }
-};
-ByRays drawn_by_rays(const RenderScene&, const Mesh&);
-/// Whether its coat or, without one, its surface is that smooth.
-bool is_smooth_mirror(const Material&);
-/// Part of the light that comes through a mesh with a clear inside whose mean thickness is `thickness` [m].
-float light_through(const Material&, float thickness);
-/// Part of the light that a mesh stops; `clear`: it is drawn by rays.
-float opacity_to_light(const Mesh&, bool clear);
-/// Whether rays show the meshes that the ground mirrors: it is smooth enough.
-bool mirrors_by_rays(const Ground&);
-
-/// How rough surfaces are to rays; from some roughness on, a pixel takes more rays.
-constexpr float smooth_alpha = 2e-3F;  // up to which they are drawn as if they were smooth
-constexpr float rough_alpha = 1e-2F;
-float alpha_for_rays(const Material&);
 /// Suns that few rays would miss: their highlights are OpenGL's [sr].
 constexpr float small_sun = 3e-3F;
 
@@ -50,7 +30,7 @@ struct DrawnPictures {
 class RayScene {
 public:
   /// `drawn`: with_stand_ins() of the scene. Throws DeviceError as RayCaster does.
-  RayScene(const RenderScene&, const RenderScene& drawn);
+  RayScene(const RenderScene&, const RenderScene& drawn, const DrawnByRays&);
 
   path::SceneGeometry& geometry() { return geometry_; }
   const path::SceneGeometry& geometry() const { return geometry_; }

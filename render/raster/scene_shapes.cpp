@@ -4,13 +4,12 @@
 #include <cstddef>
 #include <functional>
 
-#include "render/raster/ray_scene.h"
-
 namespace lagomorph::render::raster {
 
-void SceneShapes::set_scene(const RenderScene& scene) {
+void SceneShapes::set_scene(const RenderScene& scene, const DrawnByRays& by_rays) {
   meshes_.clear();
-  for (const Mesh& mesh : scene.meshes) meshes_.emplace_back(mesh, drawn_by_rays(scene, mesh).behind);
+  for (std::size_t k = 0; k < scene.meshes.size(); ++k)
+    meshes_.emplace_back(scene.meshes[k], by_rays.meshes[k].behind);
 }
 
 bool SceneShapes::any(bool (MeshBuffers::*is)() const) const {

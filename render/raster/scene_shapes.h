@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "render/raster/by_rays.h"
 #include "render/raster/gl_objects.h"
 #include "render/raster/mesh_buffers.h"
 #include "render/render_scene.h"
@@ -14,7 +15,7 @@ enum class Which { all, opaque, solid, see_through };
 /// What of a scene has a shape, to be drawn by any program.
 class SceneShapes {
 public:
-  void set_scene(const RenderScene&);
+  void set_scene(const RenderScene&, const DrawnByRays&);
 
   std::vector<MeshBuffers>& meshes() { return meshes_; }
   const std::vector<MeshBuffers>& meshes() const { return meshes_; }

@@ -33,6 +33,8 @@ public:
   /// Draws it where it is not there yet; the frame's block and all maps are bound. What the meshes take is
   /// there in these tiles at least.
   const StillParts& draw(const FrameBlock&, std::span<const TileRun>);
+  /// As it was drawn last.
+  const StillParts& still() const { return still_; }
 
 private:
   /// What it depends on beside the scene.

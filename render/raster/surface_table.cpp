@@ -4,7 +4,6 @@
 
 #include "render/albedo.h"
 #include "render/raster/optics_stand_in.h"
-#include "render/raster/ray_scene.h"
 #include "render/raster/sky_model.h"
 #include "render/raster/tables.h"
 
@@ -23,16 +22,26 @@ SurfaceBlock surface_block(const Material& material, float thickness, ByRays by_
 
 }  // namespace
 
-void SurfaceTable::set_scene(const RenderScene& scene, const std::vector<AreaLight>& lights, bool sheen) {
+SurfaceBlock matte_ground() {
+  const Vec4 white(1.0F, 1.0F, 1.0F, 0.0F);
+  return {white, Vec4(1.0F, 0.0F, 0.0F, 1.0F), white, Vec4::Zero()};
+}
+
+void SurfaceTable::set_scene(const RenderScene& scene, const DrawnByRays& by_rays,
+                             const std::vector<AreaLight>& lights, bool sheen) {
   ground_ = surface_block(scene.ground.material, 1.0F, ByRays{});
   std::vector<SurfaceBlock> surfaces = {ground_};
-  for (const Mesh& mesh : scene.meshes) {
+  for (std::size_t k = 0; k < scene.meshes.size(); ++k) {
+    const Mesh& mesh = scene.meshes[k];
     surfaces.push_back(
-        surface_block(mesh.material, mean_chord(mesh.positions, mesh.triangles), drawn_by_rays(scene, mesh)));
+        surface_block(mesh.material, mean_chord(mesh.positions, mesh.triangles), by_rays.meshes[k]));
   }
   for (const AreaLight& light : lights)
     surfaces.push_back(
         {vec4(Color(light.radiance * light.color), 1.0F), Vec4::Zero(), Vec4::Zero(), Vec4::Zero()});
+  const SurfaceBlock matte = matte_ground();
+  glBindBuffer(GL_SHADER_STORAGE_BUFFER, matte_ground_.id());
+  glBufferData(GL_SHADER_STORAGE_BUFFER, sizeof(SurfaceBlock), &matte, GL_STATIC_DRAW);
   sheens_.reset();
   if (sheen) set_sheens(scene, surfaces);
   glBindBuffer(GL_SHADER_STORAGE_BUFFER, surfaces_.id());
@@ -50,6 +59,10 @@ void SurfaceTable::set_sheens(const RenderScene& scene, std::vector<SurfaceBlock
         (static_cast<float>(k) + 0.5F) / static_cast<float>(rows);
   sheens_.emplace();
   allocate_table(*sheens_, sheen_table_size, rows, sheen_table(roughnesses, sheen_table_size));
+}
+
+void SurfaceTable::bind_matte_ground() const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, matte_ground_.id());
 }
 
 void SurfaceTable::bind() const {

@@ -11,6 +11,7 @@
 #include "render/raster/gl_objects.h"
 #include "render/raster/mesh_buffers.h"
 #include "tests/bench/drawing.h"
+#include "tests/bench/forward_frame.h"
 
 /// Frames against what the libraries under them need for the same: the path tracer against Embree alone on
 /// the very rays that it traced, the rasterizer against a cleared and a plainly drawn framebuffer that is
@@ -235,7 +236,37 @@ void raster_against_bare(benchmark::State& timing) {
   timing.counters["times drawn"] = frame / drawn;
 }
 
+/// In turn: the rasterizer's frame, and a plain forward renderer's without and with shadow maps.
+void raster_against_forward(benchmark::State& timing) {
+  Drawing drawing("raster", 1);
+  render::RenderScene scene = apps::build_render_scene(drawing.s.scene, drawing.s.model, drawing.surfaces);
+  scene.meshes.front().positions = apps::to_render(drawing.surfaces.front().positions(drawing.s.state.q));
+  ForwardFrame plain(scene, 1280, 720, threads, false), shadowed(scene, 1280, 720, threads, true);
+  drawing.draw();
+  plain.draw_and_read(*drawing.camera);
+  shadowed.draw_and_read(*drawing.camera);
+  double frame = 0.0, without = 0.0, with = 0.0;
+  for (auto _ : timing) {
+    Clock::time_point start = Clock::now();
+    benchmark::DoNotOptimize(drawing.draw());
+    frame += seconds_since(start);
+    start = Clock::now();
+    benchmark::DoNotOptimize(plain.draw_and_read(*drawing.camera).data());
+    without += seconds_since(start);
+    start = Clock::now();
+    benchmark::DoNotOptimize(shadowed.draw_and_read(*drawing.camera).data());
+    with += seconds_since(start);
+  }
+  const auto count = static_cast<double>(timing.iterations());
+  timing.counters["frame ms"] = 1e3 * frame / count;
+  timing.counters["forward ms"] = 1e3 * without / count;
+  timing.counters["with shadows ms"] = 1e3 * with / count;
+  timing.counters["times forward"] = frame / without;
+  timing.counters["times with shadows"] = frame / with;
+}
+
 BENCHMARK(path_against_bare)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(5);
+BENCHMARK(raster_against_forward)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(20);
 BENCHMARK(raster_against_bare)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(20);
 
 }  // namespace

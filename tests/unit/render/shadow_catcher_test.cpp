@@ -67,8 +67,7 @@ bool is_free(const Drawn& d, int x, int y) {
 }
 
 TEST(ShadowCatcher, BothBackEndsAgree) {
-  RenderScene scene = sphere();
-  scene.meshes[0].material = {Color::Zero(), 1.0F, 0.0F, 1.0F};  // else the rasterizer has light from it
+  const RenderScene scene = sphere();
   const Drawn raster = draw("raster", scene, above()), path = draw("path", scene, above());
   double sum = 0.0;
   float most = 0.0F;
@@ -97,6 +96,23 @@ TEST(ShadowCatcher, BothBackEndsAgree) {
     for (const int x : {2, width - 3}) {
       EXPECT_LT(d->alpha_at(x, height - 3), 0.03F);
       EXPECT_LT(d->alpha_at(x, 2), 0.005F);
+    }
+  }
+}
+
+/// What it mirrors, and its texture, are not its shadow.
+TEST(ShadowCatcher, IsTheSameOnAPolishedChecker) {
+  RenderScene checkered = sphere();
+  checkered.ground.material.roughness = 0.1F;
+  checkered.ground.texture = "checker";
+  checkered.ground.texture_color = Color::Constant(0.02F);
+  for (const char* backend : {"raster", "path"}) {
+    const Drawn plain = draw(backend, sphere(), above()), polished = draw(backend, checkered, above());
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        if (!is_free(plain, x, y)) continue;
+        ASSERT_NEAR(polished.alpha_at(x, y), plain.alpha_at(x, y), 2e-3F) << backend << " " << x << " " << y;
+      }
     }
   }
 }
@@ -181,11 +197,15 @@ TEST(ShadowCatcher, OfARegionIsThatOfTheWhole) {
 /// Laid over the ground without bodies it is the picture with them: of the rasterizer to rounding, of the
 /// path tracer, whose direct light is of other samples, in the mean.
 TEST(ShadowCatcher, OverTheEmptyGroundItIsTheShadowThere) {
-  RenderScene seen = sphere(), empty = sphere();
+  RenderScene caught = sphere();
+  caught.meshes[0].material.base_color = Color::Zero();  // sends nothing back to the ground,
+  caught.ground.material.roughness = 1.0F;               // which mirrors nothing
+  caught.ground.material.ior = 1.0F;
+  RenderScene seen = caught, empty = caught;
   seen.ground.shadow_catcher = empty.ground.shadow_catcher = false;
   empty.meshes.clear();
   for (const std::string backend : {"raster", "path"}) {
-    const Drawn shadows = draw(backend, sphere(), above()), whole = draw(backend, seen, above()),
+    const Drawn shadows = draw(backend, caught, above()), whole = draw(backend, seen, above()),
                 ground = draw(backend, empty, above());
     int compared = 0;
     double sum = 0.0, light = 0.0;

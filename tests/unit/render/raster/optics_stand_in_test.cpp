@@ -16,7 +16,7 @@ TEST(OpticsStandIn, APlainMaterialIsItself) {
   EXPECT_EQ(drawn.metallic, m.metallic);
   RenderScene scene;
   scene.meshes.emplace_back().material = m;
-  EXPECT_TRUE(optics_remarks(scene).empty());
+  EXPECT_TRUE(optics_remarks(scene, RasterSettings{}).empty());
 }
 
 TEST(OpticsStandIn, InsidesShowTheirColours) {

@@ -201,17 +201,27 @@ TEST(ByRays, ARegionIsTheWholePictures) {
 
 TEST(ByRays, AreLeftOutBesideSeeThroughMeshesAndOfColouredInsides) {
   RenderScene scene = scene_with(glass());
-  EXPECT_TRUE(drawn_by_rays(scene, scene.meshes[0]).behind);
-  EXPECT_TRUE(drawn_by_rays(scene, scene.meshes[0]).mirrored);
-  EXPECT_FALSE(drawn_by_rays(scene, scene.meshes[1]).any());
+  const auto by_rays = [&](std::size_t mesh) { return drawn_by_rays(scene, RasterSettings{}).meshes[mesh]; };
+  EXPECT_TRUE(by_rays(0).behind);
+  EXPECT_TRUE(by_rays(0).mirrored);
+  EXPECT_FALSE(by_rays(1).any());
   scene.meshes[0].material.roughness = 0.4F;
-  EXPECT_TRUE(drawn_by_rays(scene, scene.meshes[0]).behind);
-  EXPECT_FALSE(drawn_by_rays(scene, scene.meshes[0]).mirrored);
+  EXPECT_TRUE(by_rays(0).behind);
+  EXPECT_FALSE(by_rays(0).mirrored);
   scene.meshes[0].colors.assign(scene.meshes[0].positions.size(), Color::Ones());
-  EXPECT_FALSE(drawn_by_rays(scene, scene.meshes[0]).behind);
+  EXPECT_FALSE(by_rays(0).behind);
   scene.meshes[0].colors.clear();
   scene.meshes[1].material.opacity = 0.5F;
-  EXPECT_FALSE(drawn_by_rays(scene, scene.meshes[0]).any());
+  EXPECT_FALSE(by_rays(0).any());
+}
+
+TEST(ByRays, AreOfNothingWhereTheyAreOff) {
+  RenderScene scene = scene_with(glass());
+  scene.ground.material = {Color::Constant(0.6F), 0.1F, 0.0F, 1.5F};
+  EXPECT_TRUE(drawn_by_rays(scene, RasterSettings{}).ground);
+  RasterSettings off;
+  off.rays = false;
+  EXPECT_FALSE(drawn_by_rays(scene, off).any());
 }
 
 /// Beer and Lambert's law times two Fresnel transmissions, and what is not bent away.
