@@ -93,6 +93,16 @@ FrameRange frames_to_draw(const Options& options, const SceneDesc& scene, const 
   return frames;
 }
 
+/// Where all frames are asked for and not all have states.
+void tell_missing_states(const Options& options, const SceneDesc& scene, const RunPaths& source,
+                         const FrameRange& states, Progress& progress) {
+  const int all = scene.time.frames;
+  if (options.frames || (states.first == 0 && states.last + 1 == all)) return;
+  progress.note(fmt::format("{}: draws frames {}..{} of {}, for the state of frame {} is not there",
+                            source.root().string(), states.first, states.last, all,
+                            states.first > 0 ? 0 : states.last + 1));
+}
+
 std::vector<FrameJob> missing_pictures(const RunPaths& paths, const RunContents& contents,
                                        const StatesOfRun& states, FrameRange frames) {
   std::vector<FrameJob> jobs;
@@ -122,6 +132,7 @@ ExitStatus render_command(const Options& options) {
   const Identity identity = looking_identity(scene, *renderer, source, info.identity);
   const StatesOfRun states(source, info.identity, scene.time.frames);
   const FrameRange frames = frames_to_draw(options, scene, states);
+  tell_missing_states(options, scene, source, states.all(), progress);
 
   const fs::path root = options.out.value_or(draft_folder(source.root(), options));
   std::error_code error;

@@ -19,7 +19,7 @@ class BodyPass {
 public:
   explicit BodyPass(int multisample) : multisample_(multisample) {}
 
-  /// `lights`: those that are drawn, see with_stand_ins(); `colors`: meshes have colours of their vertices.
+  /// `lights`: the visible ones; `colors`: meshes have colours of their vertices.
   void set_scene(const std::vector<AreaLight>& lights, const LightFeatures&, bool colors);
 
   /// What they are seen and lit by.

@@ -244,7 +244,7 @@ void LightMaps::draw(std::span<const MeshBuffers> meshes, std::span<const std::v
   }
   draw_light_depths(views_, casters, depths_.parts_maps);
   if (has_meshes_) {
-    draw_sky_depths(block, casters, sky_map_size, depths_.sky, ground_ ? &depths_.sky_from_below : nullptr);
+    draw_sky_depths(block, casters, sky_map_size, depths_.sky, &depths_.sky_from_below);
   } else {
     depths_.sky.clear();
   }

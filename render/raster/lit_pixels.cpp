@@ -24,10 +24,6 @@ std::uint16_t fraction(float x) {
   return static_cast<std::uint16_t>(std::clamp(x * 65535.0F + 0.5F, 0.0F, 65535.0F));
 }
 
-Parts colors(float red, float green, float blue) {
-  return {fraction(red), fraction(green), fraction(blue), 65535};
-}
-
 /// Blocks of `part` with a block more to all sides, for neighbours of its points to be there; receivers(x, y,
 /// r) puts those of the block at a corner, `step` pixels apart, and says whether anything is there.
 template <class BlockReceivers>
@@ -70,10 +66,12 @@ std::size_t area(const PixelRectangle& r) {
   return static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height);
 }
 
-void put_sky(const Lanes3& seen, const PixelRectangle& at, int x, int y, std::vector<Parts>& parts) {
+void put_sky(const Lanes3& seen, const Lanes& below, const PixelRectangle& at, int x, int y,
+             std::vector<Parts>& parts) {
   for (int lane = 0; lane < lanes; ++lane) {
     const Vec3 v = seen.at(lane);
-    parts[pixel_of(at, x + column(lane), y + row(lane))] = colors(v.x(), v.y(), v.z());
+    parts[pixel_of(at, x + column(lane), y + row(lane))] = {fraction(v.x()), fraction(v.y()), fraction(v.z()),
+                                                            fraction(below[static_cast<std::size_t>(lane)])};
   }
 }
 
@@ -102,7 +100,7 @@ void for_lights(const Lighting& l, const ReceiverBlocks& receivers, const To& to
   }
 }
 
-constexpr std::size_t first_sky = most_lights, first_mirrored = first_sky + 3;
+constexpr std::size_t first_sky = most_lights, first_mirrored = first_sky + 4;
 
 template <std::size_t N>
 CoarseParts<N> parts_of_cells(const Lighting& l, const ReceiverBlocks& cells, int step) {
@@ -122,7 +120,7 @@ CoarseParts<N> parts_of_cells(const Lighting& l, const ReceiverBlocks& cells, in
         for (int lane = 0; lane < lanes; ++lane) {
           const Vec3 v = of.at(lane);
           float* to = parts.at(x + column(lane), y + row(lane)).data() + first;
-          to[0] = v.x(), to[1] = v.y(), to[2] = v.z();
+          to[0] = v.x(), to[1] = v.y(), to[2] = v.z(), to[3] = seen.below[static_cast<std::size_t>(lane)];
         }
       };
       put(first_sky, seen.diffuse);
@@ -136,7 +134,10 @@ CoarseParts<N> parts_of_cells(const Lighting& l, const ReceiverBlocks& cells, in
 template <std::size_t N>
 void put_parts(const std::array<float, N>& seen, std::size_t pixel, LitPixels& lit) {
   for (std::size_t i = 0; i < most_lights; ++i) lit.lights[pixel][i] = fraction(seen[i]);
-  const auto sky = [&](std::size_t first) { return colors(seen[first], seen[first + 1], seen[first + 2]); };
+  const auto sky = [&](std::size_t first) -> Parts {
+    return {fraction(seen[first]), fraction(seen[first + 1]), fraction(seen[first + 2]),
+            fraction(seen[first + 3])};
+  };
   if constexpr (N > first_sky) lit.diffuse[pixel] = sky(first_sky);
   if constexpr (N > first_mirrored) lit.mirrored[pixel] = sky(first_mirrored);
 }
@@ -162,8 +163,9 @@ void light_each_pixel(const Lighting& l, const PixelRectangle& part, const Recei
   for_inner_blocks([&](int, int, int to_x, int to_y, const Receivers& r) {
     SkySeen seen;
     find_sky(l, r, seen);
-    put_sky(seen.diffuse, l.lit.at, to_x, to_y, l.lit.diffuse);
-    if (l.sky == SkyLit::mirrored_too) put_sky(seen.mirrored, l.lit.at, to_x, to_y, l.lit.mirrored);
+    put_sky(seen.diffuse, seen.below, l.lit.at, to_x, to_y, l.lit.diffuse);
+    if (l.sky == SkyLit::mirrored_too)
+      put_sky(seen.mirrored, seen.below, l.lit.at, to_x, to_y, l.lit.mirrored);
   });
 }
 
@@ -296,7 +298,8 @@ void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<cons
       if (cells.is_open(at_x, at_y)) return Found::nothing_there;
       return cells.find(at_x, at_y, 0.0F, normal, 1.0F, seen) ? Found::yes : Found::no;
     };
-    light_part<most_lights>({frame, maps, SkyLit::left_out, lit}, band, ground_step, receivers, wanted, shared);
+    light_part<most_lights>({frame, maps, SkyLit::left_out, lit}, band, ground_step, receivers, wanted,
+                            shared);
   });
 }
 
@@ -307,8 +310,7 @@ template <std::size_t N>
 void light_surfaces_by_cells(const Lighting& l, const SurfaceTexels& surfaces) {
   for_bands(surfaces.at, [&](const PixelRectangle& band) {
     const auto receivers = [&](int x, int y, int step, Receivers& r) {
-      return surface_receivers(l.frame, l.sky == SkyLit::mirrored_too, surfaces, band.x + x, band.y + y, step,
-                               r);
+      return surface_receivers(l.frame, surfaces, band.x + x, band.y + y, step, r);
     };
     const auto shared = [&](int x, int y, const CoarseParts<N>& cells, int at_x, int at_y,
                             std::array<float, N>& seen) {
@@ -335,9 +337,9 @@ bool light_surfaces(const FrameBlock& frame, const DepthMaps& maps, const PixelR
   const SurfaceTexels surfaces{rectangle, texels};
   const Lighting lighting{frame, maps, maps.sky_is_map ? SkyLit::mirrored_too : SkyLit::diffuse, lit};
   if (maps.sky_is_map) {
-    light_surfaces_by_cells<first_mirrored + 3>(lighting, surfaces);
+    light_surfaces_by_cells<first_mirrored + 4>(lighting, surfaces);
   } else {
-    light_surfaces_by_cells<first_sky + 3>(lighting, surfaces);
+    light_surfaces_by_cells<first_sky + 4>(lighting, surfaces);
   }
   return true;
 }
@@ -348,7 +350,7 @@ void light_ground_map(const FrameBlock& frame, const DepthMaps& maps, LitPixels&
   lit.lights.assign(area(lit.at), whole);
   lit.diffuse.resize(area(lit.at));
   lit.mirrored.clear();
-  constexpr std::size_t parts = first_sky + 3;
+  constexpr std::size_t parts = first_sky + 4;
   for_bands(lit.at, [&](const PixelRectangle& band) {
     const auto receivers = [&](int x, int y, int step, Receivers& r) {
       return ground_map_receivers(frame, band.x + x, band.y + y, step, r);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -95,7 +96,8 @@ private:
   RenderSettings settings_;
   std::unique_ptr<GlContext> context_;
   std::unique_ptr<GlSide> gl_;
-  RenderScene scene_;                         // but for the meshes
+  RenderScene scene_;                         // with_stand_ins(), without meshes
+  RenderScene seen_;                          // its ground, and all visible lights of the scene
   std::vector<std::vector<Vec3>> positions_;  // of each mesh
   FrameBlock block_{};
   bool has_colors_ = false;  // some mesh has, of its vertices
@@ -117,11 +119,15 @@ void RasterRenderer::set_scene(const RenderScene& scene) {
   has_colors_ = gl_->shapes.any(&MeshBuffers::colored);
   gl_->rays.reset();
   if (by_rays.any()) gl_->rays.emplace(scene, scene_, by_rays);
+  seen_.ground = scene_.ground;
+  seen_.lights.clear();
+  std::copy_if(scene.lights.begin(), scene.lights.end(), std::back_inserter(seen_.lights),
+               [](const AreaLight& light) { return light.visible; });
   const LightFeatures features = light_features(scene, scene_);
-  gl_->surfaces.set_scene(scene, by_rays, scene_.lights, features.sheen);
+  gl_->surfaces.set_scene(scene, by_rays, seen_.lights, features.sheen);
   gl_->maps.set_scene(scene, scene_, by_rays, features, block_);
   gl_->background.set_scene(scene_, by_rays.ground, features, gl_->surfaces.ground());
-  gl_->bodies.set_scene(scene_.lights, features, has_colors_);
+  gl_->bodies.set_scene(seen_.lights, features, has_colors_);
   gl_->channels.set_scene(features, has_colors_);
   lights_are_stale_ = true;
   check_gl("taking the scene");
@@ -167,7 +173,7 @@ void RasterRenderer::set_previous(int mesh, std::span<const Vec3> positions) {
 
 void RasterRenderer::show_ground(bool shown) {
   if (shown == scene_.ground.enabled) return;
-  scene_.ground.enabled = shown;
+  scene_.ground.enabled = seen_.ground.enabled = shown;
   gl_->maps.show_ground(shown, block_);
   if (gl_->rays) gl_->rays->geometry().show_ground(shown);
   gl_->background.show_ground(shown);
@@ -199,7 +205,7 @@ void RasterRenderer::upload_frame(const Camera& camera, const ViewRange& range) 
 
 BodyPass::View RasterRenderer::view_of_bodies(const Camera& camera, const PixelRectangle& drawn) const {
   const PixelRectangle picture = {0, 0, camera.width(), camera.height()};
-  const PixelRectangle wanted = common_rectangle(seen_rectangle(camera, positions_, scene_), drawn);
+  const PixelRectangle wanted = common_rectangle(seen_rectangle(camera, positions_, seen_), drawn);
   return {block_, gl_->maps.depths(), ground_may_hide(camera, positions_, scene_.ground),
           common_rectangle(whole_blocks(wanted), picture)};
 }
@@ -209,7 +215,7 @@ Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {
   show_ground(has_ground_ && !frame.leaves_out_ground);
   Targets& targets = targets_for(camera);
   const double read_before = targets.seconds_reading();
-  const ViewRange range = view_range(camera, positions_, scene_);
+  const ViewRange range = view_range(camera, positions_, seen_);
   upload_frame(camera, range);
 
   Image image(camera.width(), camera.height());
@@ -260,7 +266,7 @@ void RasterRenderer::draw_with_rays(const Camera& camera, const BodyPass::View& 
     pictures.surfaces = {of_solid.at, surfaces};
   }
   if (gl_->background.mirrors_by_rays()) {
-    add_mirrored_by_ground(*gl_->rays, camera, pictures, mirrored_rectangle(camera, positions_, scene_),
+    add_mirrored_by_ground(*gl_->rays, camera, pictures, mirrored_rectangle(camera, positions_, seen_),
                            color);
   }
   if (gl_->shapes.any(&MeshBuffers::clear)) {

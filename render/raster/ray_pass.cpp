@@ -11,6 +11,7 @@
 #include "render/path/brdf.h"
 #include "render/path/dielectric.h"
 #include "render/path/sampler.h"
+#include "render/raster/ray_samples.h"
 
 namespace lagomorph::render::raster {
 namespace {
@@ -20,20 +21,9 @@ constexpr int most_surfaces = 16;         // that a ray meets
 constexpr float least_share = 0.02F;      // of the light, of one of two rays for both to go on
 constexpr float least_late_share = 0.1F;  // likewise at later surfaces
 constexpr int late = 3;
-constexpr int fewest_rays = 4, most_rays = 16;  // a pixel
-constexpr float most_of_lamp = 2.0F;            // in one of more rays
+constexpr float most_of_lamp = 2.0F;  // in one of more rays
 
-/// Of n, sample k of a pixel: a rotated grid of 4, or of 16.
-Vec2 sample_place(int k, int n) {
-  static constexpr std::array<std::array<float, 2>, 4> rotated = {
-      {{0.375F, 0.875F}, {0.875F, 0.625F}, {0.125F, 0.375F}, {0.625F, 0.125F}}};
-  const auto& coarse = rotated[static_cast<std::size_t>(k % 4)];
-  if (n <= 4) return {coarse[0], coarse[1]};
-  const auto& fine = rotated[static_cast<std::size_t>(k / 4 % 4)];
-  return {coarse[0] + 0.25F * (fine[0] - 0.5F), coarse[1] + 0.25F * (fine[1] - 0.5F)};
-}
-
-int rays_a_pixel(float alpha) { return alpha > rough_alpha ? most_rays : fewest_rays; }
+int rays_a_pixel(float alpha) { return alpha > rough_alpha ? RaySamples::most : RaySamples::fewest; }
 
 /// A square of the picture. All rays of a depth are traced together.
 class RayTile {
@@ -46,44 +36,46 @@ public:
         at_(at),
         samples_(samples),
         multisample_(multisample),
-        light_(static_cast<std::size_t>(at.width) * static_cast<std::size_t>(at.height), Color::Zero()),
-        replaced_(light_.size(), 0.0F),
-        numbers_(0, 0, samples) {}
+        light_(pixels(), samples),
+        replaced_(pixels(), 0.0F),
+        numbers_(0, 0, RaySamples::most) {}
 
   /// What is seen through clear meshes and mirrored by smooth ones.
   void see_meshes() {
-    begin();
-    trace_rays(path::Coherence::coherent);
-    for (std::size_t i = 0; i < paths_.size(); ++i) look_at_mesh(i);
-    step_on();
-    go_on_to_end(1);
+    for_samples([&] {
+      trace_rays(path::Coherence::coherent);
+      for (std::size_t i = 0; i < paths_.size(); ++i) look_at_mesh(i);
+      step_on();
+      go_on_to_end(1);
+    });
   }
 
   /// What the ground mirrors of meshes, in place of the sky behind them.
   void see_in_ground() {
-    begin();
-    trace_rays(path::Coherence::coherent);
-    for (std::size_t i = 0; i < paths_.size(); ++i) look_at_ground(i);
-    step_on();
-    trace_rays(path::Coherence::incoherent);
-    for (std::size_t i = 0; i < paths_.size(); ++i) {
-      if (hits_[i].mesh == path::MeshHit::none) continue;
-      add(paths_[i], -scene_.sky(paths_[i].ray.direction).min(most_of_lamp));
-      arrive(i, 1, false);
-    }
-    step_on();
-    go_on_to_end(2);
+    for_samples([&] {
+      trace_rays(path::Coherence::coherent);
+      for (std::size_t i = 0; i < paths_.size(); ++i) look_at_ground(i);
+      step_on();
+      trace_rays(path::Coherence::incoherent);
+      for (std::size_t i = 0; i < paths_.size(); ++i) {
+        if (hits_[i].mesh == path::MeshHit::none) continue;
+        add(paths_[i], -scene_.sky(paths_[i].ray.direction).min(most_of_lamp));
+        arrive(i, 1, false);
+      }
+      step_on();
+      go_on_to_end(2);
+    });
   }
 
-  /// Rows from the top.
-  void add_to(std::span<float> color) const {
-    const float weight = 1.0F / static_cast<float>(samples_);
-    for (int k = 0; k < at_.width * at_.height; ++k) {
+  /// Rows from the top. What is not spread by roughness is taken `evenly` or not, see RaySamples.
+  void add_to(std::span<float> color, bool evenly) const {
+    for (std::size_t i = 0; i < pixels(); ++i) {
+      const int k = static_cast<int>(i);
       const int pixel = (at_.y + k / at_.width) * camera_.width() + at_.x + k % at_.width;
       float* to = color.data() + 3 * static_cast<std::size_t>(pixel);
-      const Color& light = light_[static_cast<std::size_t>(k)];
-      const float left = 1.0F - weight * replaced_[static_cast<std::size_t>(k)];
-      for (int c = 0; c < 3; ++c) to[c] = std::max(left * to[c] + weight * light[c], 0.0F);
+      const float left = 1.0F - replaced_[i] / RaySamples::fewest;
+      const Color light = light_.mean(i, evenly);
+      for (int c = 0; c < 3; ++c) to[c] = std::max(left * to[c] + light[c], 0.0F);
     }
   }
 
@@ -98,20 +90,35 @@ private:
     bool is_spread;        // by a rough surface
   };
 
-  void add(const Path& p, const Color& radiance) { light_[p.pixel] += p.share * radiance; }
-
-  /// What a rough surface spreads a bright lamp, or patch of the sky, into would be grains.
-  void add_light(const Path& p, const Color& radiance) {
-    const Color light = p.share * radiance;
-    light_[p.pixel] += p.is_spread ? Color(light.min(most_of_lamp)) : light;
+  std::size_t pixels() const {
+    return static_cast<std::size_t>(at_.width) * static_cast<std::size_t>(at_.height);
   }
 
-  void begin() {
-    paths_.reserve(light_.size() * static_cast<std::size_t>(samples_));
-    for (std::uint32_t k = 0; k < light_.size(); ++k) {
+  void add(const Path& p, const Color& radiance) { light_.light(p.pixel, p.sample) += p.share * radiance; }
+
+  /// Of a lamp, or a patch of the sky: what a rough surface spreads a bright one into would be grains.
+  void add_light(const Path& p, const Color& radiance) {
+    const Color light = p.share * radiance;
+    light_.light(p.pixel, p.sample) += p.is_spread ? Color(light.min(most_of_lamp)) : light;
+  }
+
+  /// Calls see() for the rays of the first samples, then for those of the others where they are wanted.
+  template <class See>
+  void for_samples(const See& see) {
+    begin(0, samples_);
+    see();
+    if (multisample_ == 1) return;
+    light_.want_more();
+    begin(samples_, RaySamples::most);
+    if (!paths_.empty()) see();
+  }
+
+  /// With the samples from `first` to `end` of those pixels that take them.
+  void begin(int first, int end) {
+    for (std::uint32_t k = 0; k < pixels(); ++k) {
       const int x = at_.x + static_cast<int>(k) % at_.width, y = at_.y + static_cast<int>(k) / at_.width;
-      for (int s = 0; s < samples_; ++s) {
-        const Vec2 place = multisample_ > 1 ? sample_place(s, samples_) : Vec2(0.5F, 0.5F);
+      for (int s = first; s < std::min(end, light_.count(k)); ++s) {
+        const Vec2 place = multisample_ > 1 ? RaySamples::place(s) : Vec2(0.5F, 0.5F);
         paths_.push_back({camera_.ray(static_cast<float>(x) + place.x(), static_cast<float>(y) + place.y()),
                           Color::Ones(), k, static_cast<std::uint32_t>(s), path::MeshHit::none, false});
       }
@@ -138,6 +145,7 @@ private:
     }
     // The rest is as bright as where it goes.
     for (const Path& p : paths_) add_light(p, scene_.sky(p.ray.direction));
+    paths_.clear();
   }
 
   void look_at_mesh(std::size_t i) {
@@ -147,8 +155,9 @@ private:
     const path::TriangleHit met = scene_.geometry().meet(ray, hit);
     if (scene_.geometry().meet_ground(ray) < met.t || scene_.light_is_before(ray, met.t)) return;
     const path::SurfacePoint surface = scene_.geometry().arrive(ray, hit, met);
+    light_.meet(paths_[i].pixel, paths_[i].sample);
     if (scene_.surface(hit.mesh).inside) {
-      if (surface.inside) replaced_[paths_[i].pixel] += 1.0F;
+      if (surface.inside && paths_[i].sample < RaySamples::fewest) replaced_[paths_[i].pixel] += 1.0F;
       pass(paths_[i], surface, hit, met, 0);
     } else {
       mirror(paths_[i], surface, scene_.surface(hit.mesh).alpha, 0,
@@ -158,10 +167,12 @@ private:
 
   /// Whatever is before the ground is drawn over it.
   void look_at_ground(std::size_t i) {
-    const Path& p = paths_[i];
+    Path p = paths_[i];
+    p.is_spread = scene_.ground_alpha() > 0.0F;
     const double distance = scene_.geometry().meet_ground(p.ray);
     if (distance >= path::SceneGeometry::never) return;
     const path::SurfacePoint surface = scene_.geometry().arrive_at_ground(p.ray, distance);
+    light_.meet(p.pixel, p.sample);
     mirror(p, surface, scene_.ground_alpha(), 0,
            scene_.mirrored_by_ground(scene_.geometry().ground_point(p.ray, distance),
                                      -p.ray.direction.dot(surface.normal)));
@@ -175,7 +186,7 @@ private:
     const Vec3 direction = path::reflected(-p.ray.direction, h).normalized();
     if (direction.dot(surface.normal) <= 0.0F) return;
     p.ray = {surface.origin, direction, 1.0F};
-    p.is_spread = p.is_spread || alpha > 0.0F;
+    p.is_spread = p.is_spread || alpha > rough_alpha;
     next_.push_back(p);
   }
 
@@ -238,7 +249,7 @@ private:
     const Vec3 h = facet(p, surface, of.alpha, surfaces);
     const float mirrored = path::fresnel(std::min(wo.dot(h), 1.0F), eta);
     Path on = p, back = p;
-    on.is_spread = back.is_spread = p.is_spread || of.alpha > 0.0F;
+    on.is_spread = back.is_spread = p.is_spread || of.alpha > rough_alpha;
     on.share *= (1.0F - mirrored) * inside.share;
     back.share *= mirrored;
     if (surfaces > 0 && inside.share < 1.0F) {
@@ -273,9 +284,11 @@ private:
   const Camera& camera_;
   const DrawnPictures& pictures_;
   PixelRectangle at_;  // y from the top
-  int samples_, multisample_;
-  std::vector<Color> light_;
-  std::vector<float> replaced_;  // samples of each pixel that begin inside of a mesh, which OpenGL leaves out
+  int samples_;        // of every pixel
+  int multisample_;
+  RaySamples light_;
+  std::vector<float>
+      replaced_;  // OpenGL's samples of each pixel that begin inside of a mesh, which it leaves out
   path::FrameSamples numbers_;
   std::vector<Path> paths_, next_;
   std::vector<Ray> rays_;
@@ -285,8 +298,8 @@ private:
 /// Calls see(tile) for those of a rectangle, and adds what they see.
 template <class See>
 void for_tiles(const RayScene& scene, const Camera& camera, const DrawnPictures& pictures,
-               const PixelRectangle& rectangle, int samples, int multisample, std::span<float> color,
-               const See& see) {
+               const PixelRectangle& rectangle, int samples, int multisample, bool evenly,
+               std::span<float> color, const See& see) {
   if (rectangle.width <= 0 || rectangle.height <= 0) return;
   const int right = rectangle.x + rectangle.width, bottom = camera.height() - rectangle.y;
   const int top = bottom - rectangle.height;
@@ -297,7 +310,7 @@ void for_tiles(const RayScene& scene, const Camera& camera, const DrawnPictures&
     const PixelRectangle at = {x, y, std::min(tile_side, right - x), std::min(tile_side, bottom - y)};
     RayTile tile(scene, camera, pictures, at, samples, multisample);
     see(tile);
-    tile.add_to(color);
+    tile.add_to(color, evenly);
   });
 }
 
@@ -305,14 +318,15 @@ void for_tiles(const RayScene& scene, const Camera& camera, const DrawnPictures&
 
 void add_by_rays(const RayScene& scene, const Camera& camera, const DrawnPictures& pictures,
                  const PixelRectangle& rectangle, int multisample, std::span<float> color) {
-  for_tiles(scene, camera, pictures, rectangle, rays_a_pixel(scene.roughest()), multisample, color,
-            [](RayTile& tile) { tile.see_meshes(); });
+  for_tiles(scene, camera, pictures, rectangle, rays_a_pixel(scene.roughest()), multisample,
+            scene.roughest() > rough_alpha, color, [](RayTile& tile) { tile.see_meshes(); });
 }
 
 void add_mirrored_by_ground(const RayScene& scene, const Camera& camera, const DrawnPictures& pictures,
                             const PixelRectangle& rectangle, std::span<float> color) {
-  for_tiles(scene, camera, pictures, rectangle, scene.ground_alpha() > 0.0F ? most_rays : fewest_rays, 4,
-            color, [](RayTile& tile) { tile.see_in_ground(); });
+  for_tiles(scene, camera, pictures, rectangle,
+            scene.ground_alpha() > 0.0F ? RaySamples::most : RaySamples::fewest, 4, true, color,
+            [](RayTile& tile) { tile.see_in_ground(); });
 }
 
 }  // namespace lagomorph::render::raster

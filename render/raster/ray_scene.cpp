@@ -109,10 +109,10 @@ RayScene::RayScene(const RenderScene& scene, const RenderScene& drawn, const Dra
     }
   }
   const std::size_t first_sun = drawn.lights.size() - drawn.suns.size();
+  for (const AreaLight& light : scene.lights) met_.emplace_back(light);
   for (std::size_t k = 0; k < drawn.lights.size(); ++k) {
-    const AreaLight& light = drawn.lights[k];
-    lights_.emplace_back(light);
-    met_.push_back(k < first_sun || solid_angle(drawn.suns[k - first_sun]) >= small_sun ? 1 : 0);
+    lights_.emplace_back(drawn.lights[k]);
+    if (k >= first_sun && solid_angle(drawn.suns[k - first_sun]) >= small_sun) met_.push_back(lights_.back());
   }
 }
 
@@ -145,7 +145,7 @@ Color RayScene::mirrored_by_ground(const Vec3& point, float cosine) const {
 }
 
 bool RayScene::light_is_before(const Ray& ray, double far) const {
-  return std::any_of(lights_.begin(), lights_.end(), [&](const path::RectangleLight& light) {
+  return std::any_of(met_.begin(), met_.end(), [&](const path::RectangleLight& light) {
     const double distance = light.visible() ? light.intersect(ray).distance : 0.0;
     return distance > 0.0 && distance < far;
   });
@@ -153,10 +153,9 @@ bool RayScene::light_is_before(const Ray& ray, double far) const {
 
 Color RayScene::light_met(const Ray& ray, double far) const {
   Color sum = Color::Zero();
-  for (std::size_t k = 0; k < lights_.size(); ++k) {
-    if (met_[k] == 0) continue;
-    const double distance = lights_[k].intersect(ray).distance;
-    if (distance > 0.0 && distance < far) sum += lights_[k].radiance();
+  for (const path::RectangleLight& light : met_) {
+    const double distance = light.intersect(ray).distance;
+    if (distance > 0.0 && distance < far) sum += light.radiance();
   }
   return sum;
 }

@@ -87,9 +87,9 @@ private:
   static float trust(const Camera&, const DrawnPictures&, const path::SurfacePoint&, const Vec2& place);
 
   path::SceneGeometry geometry_;
-  std::vector<Surface> surfaces_;  // of each mesh
-  std::vector<path::RectangleLight> lights_;
-  std::vector<char> met_;         // lights that rays meet: 0 for small suns, see small_sun
+  std::vector<Surface> surfaces_;             // of each mesh
+  std::vector<path::RectangleLight> lights_;  // whose light is drawn
+  std::vector<path::RectangleLight> met_;     // by rays: all of the scene, and suns that are not small
   std::array<Color, 6> ambient_;  // irradiance of sky and open ground on surfaces that face +x, -x, +y ...
   Ground ground_;
   Sky sky_;

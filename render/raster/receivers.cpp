@@ -114,8 +114,8 @@ bool ground_map_receivers(const FrameBlock& frame, int x, int y, int step, Recei
   return true;
 }
 
-bool surface_receivers(const FrameBlock& frame, bool with_mirrored, const SurfaceTexels& surfaces, int x,
-                       int y, int step, Receivers& r) {
+bool surface_receivers(const FrameBlock& frame, const SurfaceTexels& surfaces, int x, int y, int step,
+                       Receivers& r) {
   struct Found {
     const SurfaceTexel* texel = nullptr;
     int x = 0, y = 0;
@@ -138,7 +138,7 @@ bool surface_receivers(const FrameBlock& frame, bool with_mirrored, const Surfac
     r.point.set(lane, ray.origin + depth * ray.direction);
     const Vec3 normal = normal_of(t);
     r.normal.set(lane, normal);
-    if (with_mirrored) r.mirrored.set(lane, mirrored_view(-ray.direction.normalized(), normal));
+    r.mirrored.set(lane, mirrored_view(-ray.direction.normalized(), normal));
     r.roughness[l] = static_cast<float>(t.finish - 1U) / 65534.0F;
     r.raised[l] = std::bit_cast<float>(t.raised);
     r.depth[l] = depth;

@@ -61,8 +61,7 @@ struct ReceiverBlocks {
 /// Each puts the points of the pixels `step` apart from (x, y) on into a block, and returns whether any is
 /// there. Each stands for its cell of step x step pixels: the lower left one where something is seen there.
 bool ground_receivers(const FrameBlock&, int x, int y, int step, Receivers&);
-bool surface_receivers(const FrameBlock&, bool with_mirrored, const SurfaceTexels&, int x, int y, int step,
-                       Receivers&);
+bool surface_receivers(const FrameBlock&, const SurfaceTexels&, int x, int y, int step, Receivers&);
 /// Of the ground's map, all.
 bool ground_map_receivers(const FrameBlock&, int x, int y, int step, Receivers&);
 

@@ -47,9 +47,14 @@ void SceneShapes::draw_lights(const Program& program, const std::vector<AreaLigh
   program.use();
   glEnable(GL_CULL_FACE);
   glBindVertexArray(no_attributes_.id());
+  const auto set = [&](const char* name, const Vec3& v) {
+    glUniform3f(program.location(name), v.x(), v.y(), v.z());
+  };
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    if (!lights[i].visible) continue;
-    glUniform1i(program.location("light"), static_cast<GLint>(i));
+    const LightFrame frame = light_frame(lights[i]);
+    set("middle", lights[i].position);
+    set("half_right", 0.5F * lights[i].size.x() * frame.right);
+    set("half_up", 0.5F * lights[i].size.y() * frame.up);
     glUniform1ui(program.location("surface"), static_cast<GLuint>(1 + meshes_.size() + i));
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }

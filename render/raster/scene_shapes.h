@@ -25,8 +25,8 @@ public:
   void draw_meshes(const Program&, Which which = Which::all) const;
   /// Rectangles whose vertex shaders find the corners: the ground's,
   void draw_ground(const Program&) const;
-  /// those of the visible ones of a scene's lights,
-  void draw_lights(const Program&, const std::vector<AreaLight>&) const;
+  /// those of visible lights,
+  void draw_lights(const Program&, const std::vector<AreaLight>& visible) const;
   /// and the picture, with the program in use.
   void draw_full_screen() const;
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "render/simd.h"
 
@@ -36,7 +37,8 @@ LAGOMORPH_INLINE void look_along(const FrameBlock& frame, Index i, const Receive
 
 /// What hides the sky through points of a direction's map, bilinear over four texels: how much, and with the
 /// map from below, times how far above the receiver it begins and ends. The same test as for the lights.
-template <bool with_height>
+/// `downward`: what hides what is there on the other side, by the map from below.
+template <bool with_height, bool downward = false>
 LAGOMORPH_INLINE void add_hidden(const DepthMap::value_type* map, const DepthMap::value_type* from_below,
                                  int size, const Sightlines& from, const Lanes& offset_x,
                                  const Lanes& offset_y, Lanes& hidden, Lanes& lowest, Lanes& highest) {
@@ -80,10 +82,12 @@ LAGOMORPH_INLINE void add_hidden(const DepthMap::value_type* map, const DepthMap
       const float dx = offset_x[l] - part_x[l] * step + (right ? step : 0.0F);
       const float dy = offset_y[l] - part_y[l] * step + (upper ? step : 0.0F);
       const float weight = (right ? part_x[l] : 1.0F - part_x[l]) * (upper ? part_y[l] : 1.0F - part_y[l]);
-      const float rise = depth[base + l] == no_depth
-                             ? -1e9F
-                             : 1.0F - scale * static_cast<float>(depth[base + l]) - from.at.z[l];
-      const float above = from.normal.x[l] * dx + from.normal.y[l] * dy + from.normal.z[l] * rise;
+      const float height = 1.0F - scale * static_cast<float>(depth[base + l]);
+      const float rise = depth[base + l] == no_depth ? -1e9F
+                         : downward                  ? from.at.z[l] + height
+                                                     : height - from.at.z[l];
+      const float along = downward ? -rise : rise;
+      const float above = from.normal.x[l] * dx + from.normal.y[l] * dy + from.normal.z[l] * along;
       const bool hides = both(rise > least, above > least);
       hidden[l] += hides ? weight : 0.0F;
       if constexpr (with_height) {
@@ -119,6 +123,65 @@ void fill(Lanes3& v, float value) {
 
 /// No wider than this around a direction's middle.
 constexpr float usual_spread = 0.36F;
+
+/// Weight of a direction along which (cosine `facing` to the normal) light is mirrored, `cosine` from where
+/// it is mirrored most: a lobe, no narrower than a direction's part of the sky.
+LAGOMORPH_INLINE float mirrored_weight(float cosine, float facing, float roughness) {
+  const float sharpness = 12.0F - 10.0F * roughness;
+  const float s = std::min(std::max(5.0F * facing, 0.0F), 1.0F);
+  return std::exp(sharpness * (cosine - 1.0F)) * s * s * (3.0F - 2.0F * s);
+}
+
+/// Along the opposites of the sky's directions, around each, so that the edges of its shadow do not show.
+/// Where a surface is seen aslant: elsewhere a dielectric mirrors little.
+LAGOMORPH_RENDER_SIMD void below_seen(const FrameBlock& frame, const DepthMaps& maps, const Receivers& at,
+                                      Lanes& seen) {
+  constexpr float aslant = 0.35F, from_above = 0.6F;  // cosines of the view to the normal
+  constexpr float reach = 0.07F;
+  constexpr float least_weight = 0.1F;  // directions of less are not looked along
+  constexpr int taps = 4;
+  alignas(64) Lanes fade, total, left, weight, hidden, offset_x, offset_y;
+  float most = 0.0F;
+  for (Index l = 0; l < all; ++l) {
+    const float cosine = at.mirrored.x[l] * at.normal.x[l] + at.mirrored.y[l] * at.normal.y[l] +
+                         at.mirrored.z[l] * at.normal.z[l];
+    const float t = std::min(std::max((from_above - cosine) / (from_above - aslant), 0.0F), 1.0F);
+    fade[l] = t * t * (3.0F - 2.0F * t);
+    most = std::max(most, fade[l]);
+  }
+  seen.fill(1.0F);
+  if (most <= 0.0F) return;
+  total.fill(1e-6F);
+  left.fill(1e-6F);
+  Sightlines from;
+  for (Index i = 0; i < maps.sky.size(); ++i) {
+    const Vec4& d = frame.sky[i].direction;
+    most = 0.0F;
+    for (Index l = 0; l < all; ++l) {
+      const float cosine = at.mirrored.x[l] * d[0] + at.mirrored.y[l] * d[1] + at.mirrored.z[l] * d[2];
+      const float facing = at.normal.x[l] * d[0] + at.normal.y[l] * d[1] + at.normal.z[l] * d[2];
+      weight[l] = fade[l] * std::max(mirrored_weight(-cosine, -facing, at.roughness[l]) - least_weight, 0.0F);
+      most = std::max(most, weight[l]);
+    }
+    if (most <= 0.0F) continue;
+    look_along(frame, i, at, from);
+    hidden.fill(0.0F);
+    float x = reach * std::cos(static_cast<float>(i)), y = reach * std::sin(static_cast<float>(i));
+    const DepthMap::value_type* map = maps.sky_from_below[i].data();
+    for (int k = 0; k < taps; ++k) {
+      offset_x.fill(x);
+      offset_y.fill(y);
+      add_hidden<false, true>(map, nullptr, maps.sky_size, from, offset_x, offset_y, hidden, hidden, hidden);
+      x = std::exchange(y, x);
+      x = -x;
+    }
+    for (Index l = 0; l < all; ++l) {
+      total[l] += weight[l];
+      left[l] += weight[l] * (1.0F - hidden[l] / static_cast<float>(taps));
+    }
+  }
+  for (Index l = 0; l < all; ++l) seen[l] = 1.0F - fade[l] * (1.0F - left[l] / total[l]);
+}
 
 }  // namespace
 
@@ -157,19 +220,17 @@ LAGOMORPH_RENDER_SIMD void sky_seen(const FrameBlock& frame, const DepthMaps& ma
     add_light(frame.sky[i].radiance, light, total);
     add_light(frame.sky[i].radiance, open, left);
     if (!maps.sky_is_map) continue;
-    // Of a lobe around the mirrored view, no narrower than a direction's part of the sky.
     const Vec4& d = frame.sky[i].direction;
     for (Index l = 0; l < all; ++l) {
-      const float sharpness = 12.0F - 10.0F * at.roughness[l];
       const float cosine = at.mirrored.x[l] * d[0] + at.mirrored.y[l] * d[1] + at.mirrored.z[l] * d[2];
-      const float s = std::min(std::max(5.0F * from.normal.z[l], 0.0F), 1.0F);
-      light[l] = std::exp(sharpness * (cosine - 1.0F)) * s * s * (3.0F - 2.0F * s);
+      light[l] = mirrored_weight(cosine, from.normal.z[l], at.roughness[l]);
       open[l] = light[l] * (1.0F - hidden[l]);
     }
     add_light(frame.sky[i].radiance, light, total_mirrored);
     add_light(frame.sky[i].radiance, open, left_mirrored);
   }
   divide(left, total, seen.diffuse);
+  below_seen(frame, maps, at, seen.below);
   if (maps.sky_is_map) {
     divide(left_mirrored, total_mirrored, seen.mirrored);
   } else {
@@ -257,6 +318,7 @@ LAGOMORPH_RENDER_SIMD void sky_seen_softly(const FrameBlock& frame, const DepthM
   }
   divide(left, total, seen.diffuse);
   seen.mirrored = seen.diffuse;
+  seen.below.fill(1.0F);
 }
 
 }  // namespace lagomorph::render::raster

@@ -160,8 +160,9 @@ std::vector<std::string> stand_in_remarks(const CameraSettings& camera, const Re
     remarks.push_back(line.str());
   }
   if (std::find(is_drawn.begin(), is_drawn.end(), false) != is_drawn.end()) {
-    remarks.push_back("draws at most " + std::to_string(most_lights) + " lights, the strongest: leaves out " +
-                      names_of_left_out(scene, is_drawn) + "; --backend path draws all");
+    remarks.push_back("draws the light of at most " + std::to_string(most_lights) +
+                      " lights, the strongest: leaves out that of " + names_of_left_out(scene, is_drawn) +
+                      "; --backend path draws all");
   }
   return remarks;
 }

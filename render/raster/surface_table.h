@@ -16,7 +16,7 @@ SurfaceBlock matte_ground();
 /// The shaders' table of surfaces: the ground's, the meshes', the lights'.
 class SurfaceTable {
 public:
-  /// `lights`: those that are drawn, see with_stand_ins(); `sheen`: some mesh has it.
+  /// `lights`: those that are seen; `sheen`: some mesh has it.
   void set_scene(const RenderScene&, const DrawnByRays&, const std::vector<AreaLight>& lights, bool sheen);
   const SurfaceBlock& ground() const { return ground_; }
   /// Binds it, and the table of sheens where there is one, where the shaders expect them.

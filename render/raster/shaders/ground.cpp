@@ -91,7 +91,7 @@ void main() {
 #endif
   Finish finish = finish_of(surface, p.normal, v);
   SkyLight sky = sky_light(finish, p.normal, v, radiance_below_ground(p.normal));
-  vec3 sent = part * sent_of_sky(finish, sky, SkySeen(vec3(1.0), vec3(1.0)));
+  vec3 sent = part * sent_of_sky(finish, sky, SkySeen(vec3(1.0), vec3(1.0), 1.0));
 #if LIGHTS > 0
   for (int i = 0; i < LIGHTS; ++i) {
     lit[i].rgb = min(part * sent_of_light(i, finish, p, v), most);

@@ -44,15 +44,13 @@ void main() {
 )";
 
 const char* const emitter_vertex = R"(
-uniform int light;
+uniform vec3 middle, half_right, half_up;
 out vec3 world;
 void main() {
   // From the front, right and up are mirrored.
   vec2 corner = vec2(gl_VertexID >> 1, gl_VertexID & 1) * 2.0 - 1.0;
-  vec3 x = lights[light].position.xyz + corner.x * lights[light].right.w * lights[light].right.xyz +
-           corner.y * lights[light].up.w * lights[light].up.xyz;
-  world = x;
-  gl_Position = clip_from_world * vec4(x, 1.0);
+  world = middle + corner.x * half_right + corner.y * half_up;
+  gl_Position = clip_from_world * vec4(world, 1.0);
 }
 )";
 
@@ -336,10 +334,12 @@ void main() {
 #endif
   ivec2 pixel = pixel_like(mean);
   vec4 lights_seen = vec4(1.0);
-  SkySeen sky = SkySeen(vec3(1.0), vec3(1.0));
+  SkySeen sky = SkySeen(vec3(1.0), vec3(1.0), 1.0);
   if (pixel.x >= 0) {
     lights_seen = texelFetch(seen_of_pixel, ivec3(pixel, 0), 0);
-    sky.diffuse = texelFetch(seen_of_pixel, ivec3(pixel, 1), 0).rgb;
+    vec4 of_sky = texelFetch(seen_of_pixel, ivec3(pixel, 1), 0);
+    sky.diffuse = of_sky.rgb;
+    sky.below = of_sky.w;
 #ifdef SKY_MAP
     sky.mirrored = texelFetch(seen_of_pixel, ivec3(pixel, 2), 0).rgb;
 #else

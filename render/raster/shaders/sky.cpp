@@ -62,9 +62,11 @@ vec3 open_sky(vec3 n) {
 }
 #endif
 
-// Part of the sky's light that the meshes leave: of open_sky(), and of what is mirrored.
+// Part of the sky's light that the meshes leave: of open_sky(), and of what is mirrored; and of what is mirrored from
+// below.
 struct SkySeen {
   vec3 diffuse, mirrored;
+  float below;
 };
 
 // Irradiance of the sky, of which the part `seen` is, and from below. What hides the sky is lit as this point is and of
@@ -179,10 +181,10 @@ vec3 light_from_below(vec3 n, vec4 below) {
 }
 
 // What comes from all around: irradiance from above and below, and radiance in the coat's mirror, of the sky, of a mesh
-// before it over the light on that, and from below.
+// before it over the light on that, and from below, likewise.
 struct SkyLight {
   vec3 open, from_below;
-  vec3 mirrored, mirrored_mesh, mirrored_below;
+  vec3 mirrored, mirrored_mesh, mirrored_below, mesh_below;
 };
 SkyLight sky_light(Finish f, vec3 n, vec3 v, vec4 below) {
   SkyLight sky;
@@ -195,12 +197,15 @@ SkyLight sky_light(Finish f, vec3 n, vec3 v, vec4 below) {
   vec4 above = textureLod(sky_lobes_above, r, level);
   sky.mirrored = above.rgb;
   sky.mirrored_mesh = above.w * (f.coat.diffuse + f.coat.f0) / PI;
+  sky.mesh_below = (1.0 - above.w) * (f.coat.diffuse + f.coat.f0) / PI;
   sky.mirrored_below = mix(textureLod(sky_lobes_below, r, level).rgb, (1.0 - above.w) * below.rgb, below.w);
 #else
   float above = smoothstep(-roughness, roughness + 1e-3, r.y);
   sky.mirrored = mix(above * sky_radiance(r), open_sky(r) / PI, roughness);
   sky.mirrored_mesh = mix(above, 0.5 * (1.0 + r.y), roughness) * (f.coat.diffuse + f.coat.f0) / PI;
-  sky.mirrored_below = mix(1.0 - above, 0.5 * (1.0 - r.y), roughness) * below.rgb;
+  float downward = mix(1.0 - above, 0.5 * (1.0 - r.y), roughness);
+  sky.mesh_below = downward * (f.coat.diffuse + f.coat.f0) / PI;
+  sky.mirrored_below = downward * below.rgb;
 #endif
   return sky;
 }
@@ -208,7 +213,8 @@ SkyLight sky_light(Finish f, vec3 n, vec3 v, vec4 below) {
 // Radiance towards the viewer of the light from all around, of which the meshes leave the part `seen`.
 vec3 sent_of_sky(Finish f, SkyLight sky, SkySeen seen) {
   vec3 ambient = ambient_light(sky.open, seen.diffuse, sky.from_below, f.coat.diffuse);
-  vec3 in_mirror = sky.mirrored * seen.mirrored + sky.mirrored_mesh * (1.0 - seen.mirrored) * ambient + sky.mirrored_below;
+  vec3 mesh = sky.mirrored_mesh * (1.0 - seen.mirrored) + sky.mesh_below * (1.0 - seen.below);
+  vec3 in_mirror = sky.mirrored * seen.mirrored + sky.mirrored_below * seen.below + mesh * ambient;
   return (f.coat.diffuse * f.out_of_base + f.multiple) / PI * ambient + f.mirrors * in_mirror;
 }
 

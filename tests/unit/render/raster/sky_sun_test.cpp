@@ -191,7 +191,7 @@ TEST(SkySun, IsTheLastOfTheSunsThatAreDrawn) {
   scene.suns.resize(4);
   scene.suns[2].irradiance = 0.1F;
   EXPECT_EQ(with_stand_ins(scene).suns.size(), 4U);
-  EXPECT_NE(stand_in_remarks({}, scene).back().find("leaves out light 2;"), std::string::npos);
+  EXPECT_NE(stand_in_remarks({}, scene).back().find("leaves out that of light 2;"), std::string::npos);
   // The weakest of five stays in the sky.
   for (Sun& sun : scene.suns) sun.irradiance = 100.0F;
   EXPECT_EQ(with_stand_ins(scene).sky.map, scene.sky.map);

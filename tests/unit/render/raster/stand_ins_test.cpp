@@ -59,8 +59,9 @@ TEST(StandIns, TheStrongestFourAreDrawnInTheirOrder) {
                   lamp({0, 2, 0}, 3.0F, "light.2"), lamp({0, 2, 0}, 2.0F, "light.3"),
                   lamp({0, 2, 0}, 8.0F, "light.4"), lamp({0, 2, 0}, 2.0F, "light.5")};
   EXPECT_EQ(names(with_stand_ins(scene)), (Names{"light.0", "light.2", "light.3", "light.4"}));
-  EXPECT_EQ(stand_in_remarks({}, scene), (Names{"draws at most 4 lights, the strongest: leaves out light.1, "
-                                                "light.5; --backend path draws all"}));
+  EXPECT_EQ(stand_in_remarks({}, scene),
+            (Names{"draws the light of at most 4 lights, the strongest: leaves out that of light.1, "
+                   "light.5; --backend path draws all"}));
   scene.lights[1].size = Vec2(3.0F, 3.0F);
   scene.lights[4].color = Color(0.0F, 0.0F, 1.0F);  // of little luminance
   EXPECT_EQ(names(with_stand_ins(scene)), (Names{"light.0", "light.1", "light.2", "light.3"}));
@@ -73,8 +74,8 @@ TEST(StandIns, ASunIsHeldAgainstLightsByWhatItGivesTheMeshes) {
   scene.lights[2].radiance = 7.0F;
   scene.suns = {sun_of(1.7F, "sun")};
   EXPECT_EQ(names(with_stand_ins(scene)), (Names{"a", "b", "c", "d"}));
-  EXPECT_EQ(stand_in_remarks({}, scene),
-            (Names{"draws at most 4 lights, the strongest: leaves out sun; --backend path draws all"}));
+  EXPECT_EQ(stand_in_remarks({}, scene), (Names{"draws the light of at most 4 lights, the strongest: leaves "
+                                                "out that of sun; --backend path draws all"}));
   scene.suns = {sun_of(1.8F, "sun")};
   EXPECT_EQ(names(with_stand_ins(scene)), (Names{"a", "b", "d", "", "sun"}));
   scene.lights.clear();
@@ -83,7 +84,34 @@ TEST(StandIns, ASunIsHeldAgainstLightsByWhatItGivesTheMeshes) {
   EXPECT_EQ(with_stand_ins(scene).suns.size(), 4U);
   EXPECT_EQ(with_stand_ins(scene).suns.back().irradiance, 2.0F);
   EXPECT_EQ(stand_in_remarks({}, scene).back(),
-            "draws at most 4 lights, the strongest: leaves out light 3, light 4; --backend path draws all");
+            "draws the light of at most 4 lights, the strongest: leaves out that of light 3, light 4; "
+            "--backend path draws all");
+}
+
+/// Whose light is left out, but not they themselves.
+TEST(StandIns, AllVisibleLightsAreSeen) {
+  for (const char* look : {"plain", "chrome"}) {
+    RenderScene scene = ball();
+    if (look == std::string("chrome")) scene.meshes[0].material = {Color::Constant(0.9F), 0.0F, 1.0F, 1.5F};
+    scene.sky.strength = 0.0F;
+    for (int k = 0; k < 4; ++k) scene.lights.push_back(lamp({0, 9, 0}, 50.0F, "strong"));
+    scene.lights.push_back(lamp({-1.5F, 0.5F, 0}, 0.7F, "weak"));
+    scene.lights.back().look_at = Vec3(-1.5F, 0.5F, 5.0F);
+    scene.lights.back().size = Vec2(0.4F, 0.4F);
+    scene.lights.back().visible = true;
+    CameraSettings camera;
+    camera.position = Vec3(0, 0.5F, 5.0F);
+    camera.look_at = Vec3(0, 0.5F, 0);
+    RenderSettings settings;
+    settings.width = settings.height = 64;
+    const auto renderer = make_renderer(settings, 1);
+    renderer->set_scene(scene);
+    const Camera from(camera, 64, 64);
+    const Image image = renderer->render(from, {});
+    const Vec2 at = from.project(scene.lights.back().position);
+    const auto pixel = static_cast<std::size_t>(at.y()) * 64 + static_cast<std::size_t>(at.x());
+    EXPECT_FLOAT_EQ(image.find(color_channel)->values[3 * pixel], 0.7F) << look;
+  }
 }
 
 TEST(StandIns, APictureIsThatOfTheStrongest) {
