@@ -28,6 +28,7 @@
 #include "apps/run/run_video.h"
 #include "apps/run/state_file.h"
 #include "apps/scene/idle_keys.h"
+#include "apps/video/video.h"
 #include "render/channel_png.h"
 #include "render/channels.h"
 #include "sim/integrator.h"
@@ -280,6 +281,9 @@ ExitStatus make_all(Production& p, RunResult& result, Progress& progress) {
     if (!video) return stop_status();
     result.video = video->record.file;
     result.video_made = video->made;
+    if (const std::string remark = rate_remark(p.options.codec, p.scene.time.fps / p.frames.every);
+        video->made && !remark.empty())
+      progress.note(remark);
     result.video_replaced = video->replaced;
     info.video = std::move(video->record);
     gather(p.paths, info, p.scene.time.frames);

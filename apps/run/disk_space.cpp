@@ -47,7 +47,8 @@ void require_space(const fs::path& folder, const ExpectedSize& size) {
   fs::path there = fs::absolute(folder);
   while (!fs::exists(there, error) && there.has_relative_path()) there = there.parent_path();
   const fs::space_info space = fs::space(there, error);
-  if (error || space.available >= size.least) return;
+  // Some file systems tell of no sizes.
+  if (error || space.capacity == 0 || space.available >= size.least) return;
   throw Error(
       ExitStatus::machine,
       fmt::format("{}: {} are free on its disk; the run takes at least {} (about {})", folder.string(),

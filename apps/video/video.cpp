@@ -73,9 +73,9 @@ const std::vector<Codec> codecs = {
      prores_tables},
     {"webp",
      ".webp",
-     {"-c:v", "libwebp_anim", "-quality", "90", "-compression_level", "4", "-pix_fmt", "yuv420p"},
+     {"-c:v", "libwebp_anim", "-quality", "90", "-compression_level", "4", "-pix_fmt", "bgra"},
      {"-loop", "0", "-f", "webp"},
-     false,
+     true,
      "null"},
     // One palette of all pictures; error diffusion hides its steps.
     {"gif",
@@ -142,6 +142,12 @@ std::vector<std::string> video_codecs() {
 
 std::string video_extension(const std::string& codec) { return find_codec(codec).extension; }
 
+std::string rate_remark(const std::string& codec, double rate) {
+  const double most = find_codec(codec).most_rate;
+  if (rate <= most) return "";
+  return fmt::format("{} has {:g} pictures a second at most: some of {:g} are left out", codec, most, rate);
+}
+
 std::vector<std::string> ffmpeg_command(const VideoJob& job) {
   const Codec& codec = find_codec(job.codec);
   std::vector<std::string> command = {"ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y"};
@@ -170,8 +176,11 @@ std::vector<std::string> ffmpeg_command(const VideoJob& job) {
 }
 
 bool make_video(const VideoJob& job, const std::function<bool()>& stop) {
+  // A list of pictures would be a long one.
   const std::string later =
-      "; the pictures are there, make the video later with: " + shell_text(ffmpeg_command(job));
+      job.every == 1
+          ? "; the pictures are there, make the video later with: " + shell_text(ffmpeg_command(job))
+          : "; the pictures are there, the same command makes the video later";
   VideoJob temporary = job;
   temporary.output = temporary_name(job.output);
   const ProcessResult result = run_process(ffmpeg_command(temporary), stop);

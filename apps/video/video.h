@@ -28,10 +28,13 @@ struct VideoJob {
 };
 
 /// h264 and h265 (.mp4, faststart), vp9 (.webm), prores (422 HQ, .mov), prores4444 (.mov, with alpha), and
-/// animated pictures: webp, gif.
+/// animated pictures: webp (with alpha), gif.
 std::vector<std::string> video_codecs();
 /// With its dot. Throws Error(wrong_input) for a codec that is none.
 std::string video_extension(const std::string& codec);
+
+/// What of a video of so many pictures a second is not there; empty: nothing. Throws as video_extension() does.
+std::string rate_remark(const std::string& codec, double rate);
 
 /// Of the pictures first, first + every, ..., that many frames of the sequence apart in time. Videos are
 /// BT.709, yuv420p, of prores yuv422p10, of prores4444 yuva444p10; an odd side gets one more line of its last

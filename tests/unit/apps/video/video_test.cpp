@@ -145,6 +145,9 @@ TEST(Video, AsGifHasNoMoreThanFiftyPicturesASecond) {
        at = gif.find(control, at + 1), ++pictures)
     EXPECT_GE(gif[at + 4] + 256 * gif[at + 5], 2);
   EXPECT_EQ(pictures, 5);
+  EXPECT_EQ(rate_remark("gif", 60.0), "gif has 50 pictures a second at most: some of 60 are left out");
+  EXPECT_EQ(rate_remark("gif", 50.0), "");
+  EXPECT_EQ(rate_remark("h264", 240.0), "");
 }
 
 /// Frames of ProRes tell their tables themselves, and other programs go by them.
@@ -225,7 +228,11 @@ TEST(Video, LaysPicturesWithAlphaOverAColour) {
     EXPECT_NEAR(at(bytes, 31, k), (under[k] + own[k]) / 2, 4) << k;
     EXPECT_NEAR(at(bytes, 55, k), own[k], 4) << k;
   }
-  // One codec keeps it.
+  // Two codecs keep it.
+  job.codec = "webp";
+  job.output = dir.path() / "video.webp";
+  ASSERT_TRUE(make_video(job, never));
+  EXPECT_NE(tests::read_all(job.output).find("ALPH"), std::string::npos);
   job.codec = "prores4444";
   job.output = dir.path() / "video.mov";
   ASSERT_TRUE(make_video(job, never));
