@@ -58,7 +58,8 @@ std::vector<std::string> renderer_remarks(const RenderSettings& settings, const 
   std::vector<std::string> remarks;
   if (settings.backend == "raster") {
     remarks = raster::stand_in_remarks(camera, scene);
-    for (std::string& remark : raster::optics_remarks(scene, settings.raster)) remarks.push_back(std::move(remark));
+    for (std::string& remark : raster::optics_remarks(scene, settings.raster))
+      remarks.push_back(std::move(remark));
   }
   if (settings.backend == "path" && settings.path.clamp > 0.0F) {
     std::string value = std::to_string(settings.path.clamp);

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "apps/overlay/overlay.h"
 #include "apps/overlay/shapes.h"
 #include "apps/overlay/stroke_font.h"
 
@@ -42,10 +41,9 @@ Labels::Labels(const SceneDesc& scene, const sim::Model& model, const std::vecto
 }
 
 void Labels::draw(render::Picture& picture, const View& view, const std::vector<render::Vec3>& x,
-                  int first_item) const {
+                  int first_item, std::vector<Rectangle>& taken) const {
   const double height = std::max(6.0, 0.85 * overlay_text_height(picture));
   const std::vector<render::Triangle>& triangles = lines_.mesh.triangles;
-  std::vector<Rectangle> taken;  // a number that has no room is left out
   const auto write = [&](const render::Vec3& at, std::size_t number, const Color& color) {
     const ViewPoint p = view_point(view.camera(), at);
     const std::string text = fmt::format("{}", number);

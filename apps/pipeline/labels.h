@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/overlay/overlay.h"
 #include "apps/overlay/view.h"
 #include "apps/pipeline/body_lines.h"
 #include "apps/scene/scene_desc.h"
@@ -21,8 +22,10 @@ public:
 
   bool is_empty() const { return every_vertex_ == 0 && every_face_ == 0; }
   const BodyLines& lines() const { return lines_; }
-  /// The view has the triangles of lines() from first_item on.
-  void draw(render::Picture&, const View&, const std::vector<render::Vec3>& positions, int first_item) const;
+  /// The view has the triangles of lines() from first_item on. A number without room beside those that have
+  /// `taken` theirs is left out.
+  void draw(render::Picture&, const View&, const std::vector<render::Vec3>& positions, int first_item,
+            std::vector<Rectangle>& taken) const;
   /// Which of them have numbers, where it is not all.
   std::optional<std::string> remark(const std::string& body) const;
 

@@ -230,12 +230,13 @@ void Overlays::draw_wireframes(render::Picture& picture, const View& view, const
 }
 
 void Overlays::draw_labels(render::Picture& picture, const View& view, const sim::VecX& q) const {
+  std::vector<Rectangle> taken;
   for (std::size_t i = 0; i < labels_.size(); ++i) {
     if (labels_[i].is_empty()) continue;
     const std::vector<render::Vec3> x = positions_of(labels_[i].lines(), q);
     View with_own = view;
     with_own.items().draw(labels_[i].lines().mesh.triangles, x, own_items(i));
-    labels_[i].draw(picture, with_own, x, own_items(i));
+    labels_[i].draw(picture, with_own, x, own_items(i), taken);
   }
 }
 

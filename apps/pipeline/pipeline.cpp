@@ -110,6 +110,7 @@ PipelineResult run_pipeline(const PipelineInput& in, Progress& progress) {
         frames_done += frame->of.job.draw && !frame->image ? 0 : 1;
         states_made += frame->of.made ? 1 : 0;
         pictures_made += frame->image ? 1 : 0;
+        if (frame->image && in.picture_written) in.picture_written(frame->of.job.frame);
         progress.frame_done();
       }
     });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <exception>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -29,11 +30,12 @@ struct PipelineInput {
       renderer;  // with its scene set; made by the calling thread; nullptr when nothing is drawn
   const RunPaths& paths;
   const Identity& identity;
-  const std::map<int, FrameRecord>& records;  // of frames that are there
-  const std::vector<FrameJob>& jobs;          // in order
-  int threads;                                // stages at work at once, and writers
-  bool log_newton;                            // into the records
-  std::string stage;                          // see Progress::begin()
+  const std::map<int, FrameRecord>& records;            // of frames that are there
+  const std::vector<FrameJob>& jobs;                    // in order
+  int threads;                                          // stages at work at once, and writers
+  bool log_newton;                                      // into the records
+  std::string stage;                                    // see Progress::begin()
+  std::function<void(int frame)> picture_written = {};  // from any thread, when its record is there
 };
 
 struct PipelineResult {

@@ -144,6 +144,10 @@ std::vector<FrameJob> pictures_in_ranges(const Production& p, const Views& views
 /// Of jobs, whose progress is told under the name of a stage.
 using Pipeline = std::function<PipelineResult(const std::vector<FrameJob>&, const std::string& stage)>;
 
+bool draws_any(const std::vector<FrameJob>& jobs) {
+  return std::any_of(jobs.begin(), jobs.end(), [](const FrameJob& job) { return job.draw; });
+}
+
 /// Where colours or the camera depend on the whole sequence: 1. all states, 2. the range, 3. the pictures.
 PipelineResult simulate_then_draw(Production& p, const sim::Model& model, Views& views, const Pipeline& run,
                                   Progress& progress) {
@@ -224,8 +228,13 @@ std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress
     if (p.share) p.lock->take(RunLock::Kind::shared);
   }
   const Pipeline run = [&](const std::vector<FrameJob>& jobs, const std::string& stage) {
+    if (p.options.video && p.threads > 1 && draws_any(jobs))
+      p.video = begin_video(p.paths, p.scene, p.contents.matching, jobs, p.frames, p.options.codec);
     return run_pipeline({p.scene, model, surfaces, views, *integrator, p.renderer.get(), p.paths, p.identity,
-                         p.contents.matching, jobs, p.threads, p.options.log_newton, stage},
+                         p.contents.matching, jobs, p.threads, p.options.log_newton, stage,
+                         [&](int frame) {
+                           if (p.video) p.video->picture_written(frame);
+                         }},
                         progress);
   };
   if (p.renderer && need_all_states(p.scene)) return simulate_then_draw(p, model, views, run, progress);
@@ -276,8 +285,8 @@ ExitStatus make_all(Production& p, RunResult& result, Progress& progress) {
   if (made->stopped || made->frames < static_cast<int>(p.jobs.size())) return stop_status();
 
   if (p.options.video && p.renderer) {
-    std::optional<VideoUpdate> video =
-        update_video(p.paths, p.scene, result.records, p.frames, p.options.codec, info.video, stop_asked);
+    std::optional<VideoUpdate> video = update_video(p.paths, p.scene, result.records, p.frames,
+                                                    p.options.codec, info.video, p.video.get(), stop_asked);
     if (!video) return stop_status();
     result.video = video->record.file;
     result.video_made = video->made;

@@ -13,6 +13,7 @@
 #include "apps/run/paths.h"
 #include "apps/run/plan.h"
 #include "apps/run/states_of_run.h"
+#include "apps/run/video_ahead.h"
 #include "apps/scene/scene_desc.h"
 #include "render/renderer.h"
 
@@ -32,8 +33,9 @@ struct Production {
   /// RUN's, when it is there. Exclusive: what RUN says of itself is brought up to date. Shared: it is so
   /// already, and others may draw frames of theirs.
   std::optional<RunLock> lock;
-  bool share = false;                   // once it is brought up to date
-  const StatesOfRun* states = nullptr;  // those to draw, when none are simulated
+  bool share = false;                      // once it is brought up to date
+  const StatesOfRun* states = nullptr;     // those to draw, when none are simulated
+  std::unique_ptr<VideoAhead> video = {};  // encoded while pictures are made
 };
 
 /// Makes what is missing in RUN, and tells what was done: the part that run, simulate and render have in

@@ -1,6 +1,7 @@
 #include "apps/run/run_video.h"
 
 #include <filesystem>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -50,12 +51,9 @@ std::optional<std::array<std::uint8_t, 3>> under_transparent(const SceneDesc& sc
   return std::array<std::uint8_t, 3>{shown.rgb[0], shown.rgb[1], shown.rgb[2]};
 }
 
-}  // namespace
-
-std::optional<VideoUpdate> update_video(const RunPaths& paths, const SceneDesc& scene,
-                                        const std::map<int, FrameRecord>& records, FrameRange frames,
-                                        const std::string& codec, const std::optional<VideoRecord>& there,
-                                        const std::function<bool()>& stop) {
+/// Of all pictures around `frames` that have no gap between them.
+VideoJob video_job(const RunPaths& paths, const SceneDesc& scene, const std::map<int, FrameRecord>& records,
+                   FrameRange frames, const std::string& codec) {
   VideoJob job{paths.pictures(),
                frames.first,
                frames.last,
@@ -67,16 +65,40 @@ std::optional<VideoUpdate> update_video(const RunPaths& paths, const SceneDesc& 
                frames.every,
                under_transparent(scene),
                paths.names()};
-  for (int frame = job.first; frame <= job.last; frame += job.every) {
-    if (has_picture(records, frame)) continue;
-    throw Error(ExitStatus::wrong_input, "--video: " + paths.picture(frame).string() + " is not there");
-  }
   job.last -= (job.last - job.first) % job.every;
   while (has_picture(records, job.first - job.every)) job.first -= job.every;
   while (has_picture(records, job.last + job.every)) job.last += job.every;
+  return job;
+}
+
+}  // namespace
+
+std::unique_ptr<VideoAhead> begin_video(const RunPaths& paths, const SceneDesc& scene,
+                                        const std::map<int, FrameRecord>& records,
+                                        const std::vector<FrameJob>& jobs, FrameRange frames,
+                                        const std::string& codec) {
+  std::set<int> there;
+  for (const auto& [frame, record] : records) {
+    if (record.picture) there.insert(frame);
+  }
+  for (const FrameJob& job : jobs) there.erase(job.frame);
+  return std::make_unique<VideoAhead>(video_job(paths, scene, records, frames, codec), paths,
+                                      std::move(there));
+}
+
+std::optional<VideoUpdate> update_video(const RunPaths& paths, const SceneDesc& scene,
+                                        const std::map<int, FrameRecord>& records, FrameRange frames,
+                                        const std::string& codec, const std::optional<VideoRecord>& there,
+                                        VideoAhead* ahead, const std::function<bool()>& stop) {
+  for (int frame = frames.first; frame <= frames.last; frame += frames.every) {
+    if (has_picture(records, frame)) continue;
+    throw Error(ExitStatus::wrong_input, "--video: " + paths.picture(frame).string() + " is not there");
+  }
+  const VideoJob job = video_job(paths, scene, records, frames, codec);
   VideoRecord wanted{job.output.filename().string(), job.first, job.last, source_hash(job, records), ""};
   if (there && is_up_to_date(paths, *there, wanted)) return VideoUpdate{*there, false, ""};
-  if (!make_video(job, stop)) return std::nullopt;
+  const bool is_made = ahead != nullptr && ahead->finish(job, records);
+  if (!is_made && !make_video(job, stop)) return std::nullopt;
   // A run has one video: another would stay behind when the pictures change.
   std::string replaced;
   if (there && there->file != wanted.file) {

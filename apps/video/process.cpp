@@ -4,7 +4,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <string_view>
+#include <utility>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -23,15 +25,17 @@ namespace {
   throw Error(ExitStatus::machine, program + " cannot be started: " + std::strerror(error));
 }
 
-/// What the child gets: no input, no output, stderr into the pipe, default signals, a group of its own so
-/// that the terminal's Ctrl-C reaches only us.
+constexpr int nothing = -1;  // in place of a file descriptor: /dev/null
+
+/// What the child gets: its input and stderr, no output, default signals, a group of its own so that the
+/// terminal's Ctrl-C reaches only us.
 class SpawnSettings {
 public:
-  explicit SpawnSettings(int error_pipe) {
+  SpawnSettings(int input, int errors) {
     posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions_, error_pipe, STDERR_FILENO);
+    give(input, STDIN_FILENO, O_RDONLY);
+    give(nothing, STDOUT_FILENO, O_WRONLY);
+    give(errors, STDERR_FILENO, O_WRONLY);
     posix_spawnattr_init(&attributes_);
     sigset_t defaults;
     sigemptyset(&defaults);
@@ -50,6 +54,14 @@ public:
   const posix_spawnattr_t* attributes() const { return &attributes_; }
 
 private:
+  void give(int from, int to, int mode) {
+    if (from == nothing) {
+      posix_spawn_file_actions_addopen(&actions_, to, "/dev/null", mode, 0);
+    } else {
+      posix_spawn_file_actions_adddup2(&actions_, from, to);
+    }
+  }
+
   posix_spawn_file_actions_t actions_;
   posix_spawnattr_t attributes_;
 };
@@ -75,34 +87,92 @@ std::string read_until_closed(int fd, pid_t child, const std::function<bool()>& 
   }
 }
 
+struct Spawned {
+  pid_t child = 0;
+  int error = 0;  // of errno
+  bool not_found() const { return error == ENOENT || error == EACCES || error == ENOTDIR; }
+};
+
+Spawned spawn(const std::vector<std::string>& command, const SpawnSettings& settings) {
+  std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
+  for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  Spawned spawned;
+  spawned.error = ::posix_spawnp(&spawned.child, arguments[0], settings.actions(), settings.attributes(),
+                                 arguments.data(), environ);
+  return spawned;
+}
+
+/// Exit status; 128 + signal when one ended it.
+int wait_for(pid_t child) {
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
 }  // namespace
 
 ProcessResult run_process(const std::vector<std::string>& command, const std::function<bool()>& stop) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) fail(command.front(), errno);
-  std::vector<char*> arguments;
-  arguments.reserve(command.size() + 1);
-  for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
-  arguments.push_back(nullptr);
-  pid_t child = 0;
-  const SpawnSettings settings(ends[1]);
-  const int error = ::posix_spawnp(&child, arguments[0], settings.actions(), settings.attributes(),
-                                   arguments.data(), environ);
+  const Spawned spawned = spawn(command, {nothing, ends[1]});
   ::close(ends[1]);
-  if (error != 0) {
+  if (spawned.error != 0) {
     ::close(ends[0]);
-    if (error == ENOENT || error == EACCES || error == ENOTDIR)
-      return {.found = false, .status = 127, .error_output = {}};
-    fail(command.front(), error);
+    if (spawned.not_found()) return {.found = false, .status = 127, .error_output = {}};
+    fail(command.front(), spawned.error);
   }
   ProcessResult result;
-  result.error_output = read_until_closed(ends[0], child, stop);
+  result.error_output = read_until_closed(ends[0], spawned.child, stop);
   ::close(ends[0]);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  result.status = wait_for(spawned.child);
   return result;
+}
+
+FedProcess::FedProcess(const std::vector<std::string>& command) {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) return;
+  const Spawned spawned = spawn(command, {ends[0], nothing});
+  ::close(ends[0]);
+  if (spawned.error != 0) {
+    ::close(ends[1]);
+    return;
+  }
+  child_ = spawned.child;
+  input_ = ends[1];
+}
+
+FedProcess::~FedProcess() {
+  if (child_ == 0) return;
+  ::kill(child_, SIGKILL);
+  finish();
+}
+
+bool FedProcess::feed(std::string_view bytes) {
+  // A child that has ended is no reason for us to end: SIGPIPE is this thread's for the time being.
+  sigset_t broken_pipe, before;
+  sigemptyset(&broken_pipe);
+  sigaddset(&broken_pipe, SIGPIPE);
+  pthread_sigmask(SIG_BLOCK, &broken_pipe, &before);
+  while (child_ != 0 && !bytes.empty()) {
+    const ssize_t written = ::write(input_, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) break;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  const timespec at_once{};
+  while (::sigtimedwait(&broken_pipe, nullptr, &at_once) < 0 && errno == EINTR) {
+  }
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  return bytes.empty();
+}
+
+bool FedProcess::finish() {
+  if (child_ == 0) return false;
+  ::close(input_);
+  return wait_for(std::exchange(child_, 0)) == 0;
 }
 
 std::string shell_text(const std::vector<std::string>& command) {

@@ -104,6 +104,8 @@ const Codec& find_codec(const std::string& name) {
   throw Error(ExitStatus::wrong_input, "unknown video codec '" + name + "'; known are " + names);
 }
 
+int picture_count(const VideoJob& job) { return (job.last - job.first) / job.every + 1; }
+
 std::string filters(const VideoJob& job) {
   std::string text;
   const Codec& codec = find_codec(job.codec);
@@ -114,6 +116,8 @@ std::string filters(const VideoJob& job) {
         "format=rgb,",
         c[0], c[1], c[2], job.width, job.height, job.fps / job.every);
   }
+  // A palette is of these pictures, not of those after them.
+  if (codec.filter != nullptr) text += fmt::format("trim=end_frame={},", picture_count(job));
   if (job.fps / job.every > codec.most_rate) text += fmt::format("fps={:g},", codec.most_rate);
   if (codec.filter != nullptr) return text + codec.filter;
   const int right = job.width % 2, bottom = job.height % 2;
@@ -148,20 +152,16 @@ std::string rate_remark(const std::string& codec, double rate) {
   return fmt::format("{} has {:g} pictures a second at most: some of {:g} are left out", codec, most, rate);
 }
 
-std::vector<std::string> ffmpeg_command(const VideoJob& job) {
+namespace {
+
+std::vector<std::string> command_with(const VideoJob& job, const std::vector<std::string>& input) {
   const Codec& codec = find_codec(job.codec);
   std::vector<std::string> command = {"ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y"};
   const auto add = [&](const std::vector<std::string>& more) {
     command.insert(command.end(), more.begin(), more.end());
   };
-  const int count = (job.last - job.first) / job.every + 1;
-  const std::string rate = fmt::format("{:.17g}", job.fps / job.every);
-  if (job.every == 1) {
-    add({"-framerate", rate, "-start_number", std::to_string(job.first), "-i", picture_pattern(job)});
-  } else {
-    add({"-f", "png_pipe", "-framerate", rate, "-i", picture_list(job)});
-  }
-  add({"-frames:v", std::to_string(count), "-vf", filters(job)});
+  add(input);
+  add({"-frames:v", std::to_string(picture_count(job)), "-vf", filters(job)});
   add(codec.encoder);
   // The tables of the sRGB pictures; without them players guess.
   if (codec.filter == nullptr) {
@@ -173,6 +173,22 @@ std::vector<std::string> ffmpeg_command(const VideoJob& job) {
   add(codec.container);
   command.push_back(file_name(job.output));
   return command;
+}
+
+std::string rate_text(const VideoJob& job) { return fmt::format("{:.17g}", job.fps / job.every); }
+
+}  // namespace
+
+std::vector<std::string> ffmpeg_command(const VideoJob& job) {
+  if (job.every == 1) {
+    return command_with(job, {"-framerate", rate_text(job), "-start_number", std::to_string(job.first), "-i",
+                              picture_pattern(job)});
+  }
+  return command_with(job, {"-f", "png_pipe", "-framerate", rate_text(job), "-i", picture_list(job)});
+}
+
+std::vector<std::string> fed_ffmpeg_command(const VideoJob& job) {
+  return command_with(job, {"-f", "png_pipe", "-framerate", rate_text(job), "-i", "pipe:0"});
 }
 
 bool make_video(const VideoJob& job, const std::function<bool()>& stop) {

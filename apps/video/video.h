@@ -33,13 +33,17 @@ std::vector<std::string> video_codecs();
 /// With its dot. Throws Error(wrong_input) for a codec that is none.
 std::string video_extension(const std::string& codec);
 
-/// What of a video of so many pictures a second is not there; empty: nothing. Throws as video_extension() does.
+/// What of a video of so many pictures a second is not there; empty: nothing. Throws as video_extension()
+/// does.
 std::string rate_remark(const std::string& codec, double rate);
 
 /// Of the pictures first, first + every, ..., that many frames of the sequence apart in time. Videos are
 /// BT.709, yuv420p, of prores yuv422p10, of prores4444 yuva444p10; an odd side gets one more line of its last
 /// pixels. The same pictures give the same bytes with the same ffmpeg.
 std::vector<std::string> ffmpeg_command(const VideoJob&);
+
+/// The same, for the pictures' bytes one after the other on its input.
+std::vector<std::string> fed_ffmpeg_command(const VideoJob&);
 
 /// Makes the video through ffmpeg and renames it into its place. Returns false when `stop` ended it. Throws
 /// Error(machine) with the command to run later when ffmpeg is not there or fails.
