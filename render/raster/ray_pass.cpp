@@ -247,16 +247,17 @@ private:
     const float eta = surface.inside ? 1.0F / inside.ior : inside.ior;
     const Vec3 wo = -p.ray.direction;
     const Vec3 h = facet(p, surface, of.alpha, surfaces);
-    const float mirrored = path::fresnel(std::min(wo.dot(h), 1.0F), eta);
+    const float cosine = std::min(wo.dot(h), 1.0F);
+    const float mirrored = path::fresnel(cosine, eta), by_base = path::fresnel(cosine, inside.ior);
     Path on = p, back = p;
     on.is_spread = back.is_spread = p.is_spread || of.alpha > rough_alpha;
     on.share *= (1.0F - mirrored) * inside.share;
-    back.share *= mirrored;
+    back.share *= inside.share * mirrored + (1.0F - inside.share) * by_base;
     if (surfaces > 0 && inside.share < 1.0F) {
       Path base = p;
-      base.share *= (1.0F - mirrored) * (1.0F - inside.share);
-      if (surface.inside) base.share *= inside.share * inside.within;  // lit by what comes through
-      add(base, scene_.of_mesh(camera_, pictures_, hit, met, surface));
+      base.share *= 1.0F - by_base;
+      add(base, surface.inside ? scene_.of_inner_base(hit.mesh, surface.origin)
+                               : scene_.of_mesh(camera_, pictures_, hit, met, surface));
     }
     if (surfaces == 0) {
       if (!of.by_rays.mirrored) back.share = Color::Zero();

@@ -76,6 +76,22 @@ std::array<Color, 6> ambient_light(const Sky& sky, const Ground& ground) {
   return sums;
 }
 
+/// Irradiance inside of a half clear surface, of the mean outside: what comes through and is sent to and fro
+/// by its inner side and base. Over n², by which radiance is less outside.
+Color lit_within(const Material& m, float thickness) {
+  constexpr int steps = 32;
+  const float n = std::max(m.ior, 1.001F);
+  float through = 0.0F;  // part of diffuse light from outside
+  for (int k = 0; k < steps; ++k) {
+    const float cosine = (static_cast<float>(k) + 0.5F) / steps;
+    through += 2.0F * cosine * (1.0F - path::fresnel(cosine, n)) / steps;
+  }
+  const float clear = clear_part(m), mirrored = 1.0F - through / (n * n);
+  const Color within = path::Absorption(m).transmittance(thickness);
+  const Color back = clear * mirrored + (1.0F - clear) * (1.0F - through + through * m.base_color);
+  return clear * through / (n * n) * within / (1.0F - within * back).max(0.05F);
+}
+
 }  // namespace
 
 RayScene::RayScene(const RenderScene& scene, const RenderScene& drawn, const DrawnByRays& by_rays)
@@ -91,14 +107,14 @@ RayScene::RayScene(const RenderScene& scene, const RenderScene& drawn, const Dra
     Surface& surface = surfaces_.emplace_back();
     surface.by_rays = by_rays.meshes[surfaces_.size() - 1];
     const float thickness = mean_chord(mesh.positions, mesh.triangles);
-    const Material stand_in = optics_stand_in(m, thickness, {false, surface.by_rays.mirrored});
+    const Material stand_in = optics_stand_in(m, thickness, surface.by_rays);
     surface.alpha = alpha_for_rays(!surface.by_rays.behind && m.coat > 0.0F ? coat_of(m) : m);
     surface.base_color = stand_in.base_color;
     surface.diffuse = stand_in.base_color;
     if (surface.by_rays.any()) roughest_ = std::max(roughest_, surface.alpha);
     if (surface.by_rays.behind)
       surface.inside = {path::Absorption(m), std::max(m.ior, 1.001F), clear_part(m),
-                        path::Absorption(m).transmittance(thickness)};
+                        lit_within(m, thickness)};
     if (surface.by_rays.mirrored) {
       if (m.coat > 0.0F) {
         surface.mirror.emplace(coat_of(m), m.coat);
@@ -197,6 +213,26 @@ Color RayScene::irradiance(const Vec3& point, const Vec3& normal, const Color& f
     sum += form * r.width * r.height / (side * side) * light.radiance();
   }
   return sum;
+}
+
+/// At a point of a body, on all ways to face, of lights that nothing hides.
+Color RayScene::mean_irradiance(const Vec3& point) const {
+  Color sum = Color::Zero();
+  for (const Color& ambient : ambient_) sum += ambient / static_cast<float>(ambient_.size());
+  for (const path::RectangleLight& light : lights_) {
+    const path::Rectangle& r = light.shape();
+    const Vec3 to = vec3(r.center) - point;
+    const float distance = std::max(to.norm(), 1e-3F);
+    const float facing = std::max(-to.dot(vec3(r.normal)), 0.0F) / distance;
+    // A fourth of what falls on a disc that faces it.
+    sum += 0.25F * facing * r.width * r.height / (distance * distance) * light.radiance();
+  }
+  return sum;
+}
+
+Color RayScene::of_inner_base(std::size_t mesh, const Vec3& point) const {
+  const Surface& s = surfaces_[mesh];
+  return std::numbers::inv_pi_v<float> * s.diffuse * s.inside->lit * mean_irradiance(point);
 }
 
 Color RayScene::of_ground(const Camera& camera, const DrawnPictures& pictures, const Vec3& point,

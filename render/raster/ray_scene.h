@@ -38,8 +38,8 @@ public:
   struct Inside {
     path::Absorption absorption;
     float ior;
-    float share;   // of the light that comes through the surface, which goes on inside
-    Color within;  // what is left of it over the mean thickness
+    float share;  // of the light that comes through the surface, which goes on inside
+    Color lit;    // irradiance on the base from within, of the mean on the mesh from outside
   };
   /// A dielectric or a metal.
   struct Mirror {
@@ -81,7 +81,11 @@ public:
   Color of_mesh(const Camera&, const DrawnPictures&, const path::MeshHit&, const path::TriangleHit&,
                 const path::SurfacePoint&) const;
 
+  /// Of the inner side of a half clear mesh: its base, under what light is inside.
+  Color of_inner_base(std::size_t mesh, const Vec3& point) const;
+
 private:
+  Color mean_irradiance(const Vec3& point) const;
   Color irradiance(const Vec3& point, const Vec3& normal, const Color& from_below, bool with_shadows) const;
   bool is_hidden(const Vec3& from, const Vec3& light) const;
   static float trust(const Camera&, const DrawnPictures&, const path::SurfacePoint&, const Vec2& place);

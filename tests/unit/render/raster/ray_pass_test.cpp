@@ -94,6 +94,18 @@ TEST(ByRays, GlassLooksAsThePathTracerDrawsIt) {
   }
 }
 
+/// The base sees what comes through it, as often as that is sent to and fro.
+TEST(ByRays, HalfClearBodiesLookAsThePathTracerDrawsThem) {
+  for (const float transmission : {0.25F, 0.5F, 0.8F}) {
+    Material half = glass();
+    half.transmission = transmission;
+    half.absorption_color = Color::Ones();
+    half.base_color = Color(0.8F, 0.35F, 0.1F);
+    const RenderScene scene = scene_with(half);
+    EXPECT_LT(apart(draw("raster", scene), draw("path", scene), scene, 0), 0.06) << transmission;
+  }
+}
+
 /// As far as plain matte spheres of those base colours do, on this floor: 0.08.
 TEST(ByRays, SheenAndCoatLookAsThePathTracerDrawsThem) {
   Material cloth{Color(0.1F, 0.1F, 0.3F), 0.9F, 0.0F, 1.0F};
