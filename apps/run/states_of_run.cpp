@@ -1,7 +1,9 @@
 #include "apps/run/states_of_run.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -34,15 +36,19 @@ FrameRange StatesOfRun::all() const {
 }
 
 void StatesOfRun::require(FrameRange range) const {
+  std::vector<char> good(static_cast<std::size_t>(range.last - range.first + 1), 0);
   tbb::parallel_for(range.first, range.last + 1, [&](int frame) {
     const auto record = records_.find(frame);
-    const bool there = record != records_.end();
-    if (there && sha256_file(paths_.state(frame)) == record->second.sha256) return;
-    throw Error(ExitStatus::wrong_input,
-                fmt::format("{}: {}; lagomorph simulate {} --out {} makes it", paths_.state(frame).string(),
-                            there ? "is not what its record tells" : "is not there", paths_.scene().string(),
-                            paths_.root().string()));
+    good[static_cast<std::size_t>(frame - range.first)] =
+        record != records_.end() && sha256_file(paths_.state(frame)) == record->second.sha256 ? 1 : 0;
   });
+  const auto bad = std::find(good.begin(), good.end(), 0);
+  if (bad == good.end()) return;
+  const int frame = range.first + static_cast<int>(bad - good.begin());
+  throw Error(ExitStatus::wrong_input,
+              fmt::format("{}: {}; lagomorph simulate {} --out {} makes it", paths_.state(frame).string(),
+                          records_.contains(frame) ? "is not what its record tells" : "is not there",
+                          paths_.scene().string(), paths_.root().string()));
 }
 
 void StatesOfRun::bring_to(const RunPaths& run, std::map<int, FrameRecord>& records) const {

@@ -21,7 +21,7 @@ constexpr int most_surfaces = 16;         // that a ray meets
 constexpr float least_share = 0.02F;      // of the light, of one of two rays for both to go on
 constexpr float least_late_share = 0.1F;  // likewise at later surfaces
 constexpr int late = 3;
-constexpr float most_of_lamp = 2.0F;  // in one of more rays
+constexpr float most_of_lamp = 1.0F;  // in one of more rays
 
 int rays_a_pixel(float alpha) { return alpha > rough_alpha ? RaySamples::most : RaySamples::fewest; }
 
@@ -99,7 +99,8 @@ private:
   /// Of a lamp, or a patch of the sky: what a rough surface spreads a bright one into would be grains.
   void add_light(const Path& p, const Color& radiance) {
     const Color light = p.share * radiance;
-    light_.light(p.pixel, p.sample) += p.is_spread ? Color(light.min(most_of_lamp)) : light;
+    light_.light(p.pixel, p.sample) +=
+        p.is_spread ? Color(light * std::min(most_of_lamp / std::max(light.maxCoeff(), 1e-6F), 1.0F)) : light;
   }
 
   /// Calls see() for the rays of the first samples, then for those of the others where they are wanted.

@@ -1,7 +1,12 @@
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "tests/unit/apps/pipeline/run_fixture.h"
 
