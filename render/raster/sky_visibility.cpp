@@ -124,21 +124,25 @@ void fill(Lanes3& v, float value) {
 /// No wider than this around a direction's middle.
 constexpr float usual_spread = 0.36F;
 
-/// Weight of a direction along which (cosine `facing` to the normal) light is mirrored, `cosine` from where
-/// it is mirrored most: a lobe, no narrower than a direction's part of the sky.
-LAGOMORPH_INLINE float mirrored_weight(float cosine, float facing, float roughness) {
-  const float sharpness = 12.0F - 10.0F * roughness;
+/// Weight of a direction along which light is mirrored, `cosine` from where it is mirrored most: e to the
+/// exponent, a lobe no narrower than a direction's part of the sky, times what is left of it where it faces
+/// the surface with a cosine `facing`.
+LAGOMORPH_INLINE float mirrored_exponent(float cosine, float roughness) {
+  return (12.0F - 10.0F * roughness) * (cosine - 1.0F);
+}
+LAGOMORPH_INLINE float beside_horizon(float facing) {
   const float s = std::min(std::max(5.0F * facing, 0.0F), 1.0F);
-  return std::exp(sharpness * (cosine - 1.0F)) * s * s * (3.0F - 2.0F * s);
+  return s * s * (3.0F - 2.0F * s);
 }
 
 /// Along the opposites of the sky's directions, around each, so that the edges of its shadow do not show.
 /// Where a surface is seen aslant: elsewhere a dielectric mirrors little.
 LAGOMORPH_RENDER_SIMD void below_seen(const FrameBlock& frame, const DepthMaps& maps, const Receivers& at,
                                       Lanes& seen) {
-  constexpr float aslant = 0.35F, from_above = 0.6F;  // cosines of the view to the normal
+  constexpr float aslant = 0.25F, from_above = 0.5F;  // cosines of the view to the normal
   constexpr float reach = 0.07F;
-  constexpr float least_weight = 0.1F;  // directions of less are not looked along
+  // Directions of less weight are not looked along.
+  constexpr float least_weight = 0.15F, least_exponent = -1.9F;
   constexpr int taps = 4;
   alignas(64) Lanes fade, total, left, weight, hidden, offset_x, offset_y;
   float most = 0.0F;
@@ -156,11 +160,18 @@ LAGOMORPH_RENDER_SIMD void below_seen(const FrameBlock& frame, const DepthMaps& 
   Sightlines from;
   for (Index i = 0; i < maps.sky.size(); ++i) {
     const Vec4& d = frame.sky[i].direction;
-    most = 0.0F;
+    // Most are too far from where light is mirrored from.
+    most = -1e9F;
     for (Index l = 0; l < all; ++l) {
       const float cosine = at.mirrored.x[l] * d[0] + at.mirrored.y[l] * d[1] + at.mirrored.z[l] * d[2];
+      weight[l] = mirrored_exponent(-cosine, at.roughness[l]);
+      most = std::max(most, fade[l] > 0.0F ? weight[l] : -1e9F);
+    }
+    if (most < least_exponent) continue;
+    most = 0.0F;
+    for (Index l = 0; l < all; ++l) {
       const float facing = at.normal.x[l] * d[0] + at.normal.y[l] * d[1] + at.normal.z[l] * d[2];
-      weight[l] = fade[l] * std::max(mirrored_weight(-cosine, -facing, at.roughness[l]) - least_weight, 0.0F);
+      weight[l] = fade[l] * std::max(std::exp(weight[l]) * beside_horizon(-facing) - least_weight, 0.0F);
       most = std::max(most, weight[l]);
     }
     if (most <= 0.0F) continue;
@@ -223,7 +234,7 @@ LAGOMORPH_RENDER_SIMD void sky_seen(const FrameBlock& frame, const DepthMaps& ma
     const Vec4& d = frame.sky[i].direction;
     for (Index l = 0; l < all; ++l) {
       const float cosine = at.mirrored.x[l] * d[0] + at.mirrored.y[l] * d[1] + at.mirrored.z[l] * d[2];
-      light[l] = mirrored_weight(cosine, from.normal.z[l], at.roughness[l]);
+      light[l] = std::exp(mirrored_exponent(cosine, at.roughness[l])) * beside_horizon(from.normal.z[l]);
       open[l] = light[l] * (1.0F - hidden[l]);
     }
     add_light(frame.sky[i].radiance, light, total_mirrored);
