@@ -60,7 +60,7 @@ std::vector<std::string> optics_remarks(const RenderScene& scene, const RasterSe
     add(is_smooth_mirror(m) && m.metallic > 0.0F && !by_rays.meshes[k].mirrored,
         settings.rays ? "it mirrors no bodies beside see-through ones"
                       : "it mirrors no bodies, for raster.rays is off");
-    add(m.metallic > 0.0F && !is_smooth_mirror(m), "it mirrors lights and sky, and no bodies");
+    add(m.metallic > 0.5F && !is_smooth_mirror(m), "it mirrors lights and sky, and no bodies");
     if (!what.empty()) remarks.push_back("look of '" + mesh.name + "': " + what);
   }
   const Material& ground = scene.ground.material;

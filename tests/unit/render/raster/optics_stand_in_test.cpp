@@ -17,6 +17,10 @@ TEST(OpticsStandIn, APlainMaterialIsItself) {
   RenderScene scene;
   scene.meshes.emplace_back().material = m;
   EXPECT_TRUE(optics_remarks(scene, RasterSettings{}).empty());
+  scene.meshes[0].name = "cast";
+  scene.meshes[0].material.metallic = 1.0F;
+  EXPECT_EQ(optics_remarks(scene, RasterSettings{}),
+            std::vector<std::string>{"look of 'cast': it mirrors lights and sky, and no bodies"});
 }
 
 TEST(OpticsStandIn, InsidesShowTheirColours) {
