@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "tests/unit/apps/pipeline/run_fixture.h"
 
