@@ -1,7 +1,6 @@
 #include "render/raster/ray_pass.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>

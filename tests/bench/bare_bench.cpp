@@ -67,7 +67,11 @@ namespace lagomorph::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
+/// What some work takes, whose result is not to be left out [s].
+template <class Work>
+double seconds_of(const Work& work) {
+  const Clock::time_point start = Clock::now();
+  benchmark::DoNotOptimize(work());
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
@@ -102,12 +106,8 @@ void path_against_bare(benchmark::State& timing) {
   recording = nullptr;
   double path = 0.0, bare = 0.0;
   for (auto _ : timing) {
-    Clock::time_point start = Clock::now();
-    benchmark::DoNotOptimize(drawing.draw());
-    path += seconds_since(start);
-    start = Clock::now();
-    benchmark::DoNotOptimize(trace_bare(rays));
-    bare += seconds_since(start);
+    path += seconds_of([&] { return drawing.draw(); });
+    bare += seconds_of([&] { return trace_bare(rays); });
   }
   const double all = static_cast<double>(rays.size()) * static_cast<double>(timing.iterations());
   timing.counters["path rays/s"] = all / path;
@@ -218,15 +218,9 @@ void raster_against_bare(benchmark::State& timing) {
   bare_frame.draw_and_read(mesh, *drawing.camera);
   double frame = 0.0, cleared = 0.0, drawn = 0.0;
   for (auto _ : timing) {
-    Clock::time_point start = Clock::now();
-    benchmark::DoNotOptimize(drawing.draw());
-    frame += seconds_since(start);
-    start = Clock::now();
-    benchmark::DoNotOptimize(bare_frame.clear_and_read().data());
-    cleared += seconds_since(start);
-    start = Clock::now();
-    benchmark::DoNotOptimize(bare_frame.draw_and_read(mesh, *drawing.camera).data());
-    drawn += seconds_since(start);
+    frame += seconds_of([&] { return drawing.draw(); });
+    cleared += seconds_of([&] { return bare_frame.clear_and_read().data(); });
+    drawn += seconds_of([&] { return bare_frame.draw_and_read(mesh, *drawing.camera).data(); });
   }
   const auto count = static_cast<double>(timing.iterations());
   timing.counters["frame ms"] = 1e3 * frame / count;
@@ -247,15 +241,9 @@ void raster_against_forward(benchmark::State& timing) {
   shadowed.draw_and_read(*drawing.camera);
   double frame = 0.0, without = 0.0, with = 0.0;
   for (auto _ : timing) {
-    Clock::time_point start = Clock::now();
-    benchmark::DoNotOptimize(drawing.draw());
-    frame += seconds_since(start);
-    start = Clock::now();
-    benchmark::DoNotOptimize(plain.draw_and_read(*drawing.camera).data());
-    without += seconds_since(start);
-    start = Clock::now();
-    benchmark::DoNotOptimize(shadowed.draw_and_read(*drawing.camera).data());
-    with += seconds_since(start);
+    frame += seconds_of([&] { return drawing.draw(); });
+    without += seconds_of([&] { return plain.draw_and_read(*drawing.camera).data(); });
+    with += seconds_of([&] { return shadowed.draw_and_read(*drawing.camera).data(); });
   }
   const auto count = static_cast<double>(timing.iterations());
   timing.counters["frame ms"] = 1e3 * frame / count;
