@@ -31,7 +31,9 @@ void BodyPass::draw(const SceneShapes& shapes, Which which, const View& view, Ta
   glClearBufferfv(GL_COLOR, 0, no_color.data());
   draw_seen(shapes, which, view.behind_ground, targets);
   targets.bind_seen_textures();
-  draw_layers(shapes, view, {programs_->surface, seen().layer, GL_ONE_MINUS_SRC_ALPHA, false}, targets);
+  const Program* plain = colors_ || view.behind_ground ? nullptr : &seen().plain;
+  draw_layers(shapes, view, {programs_->surface, seen().layer, plain, GL_ONE_MINUS_SRC_ALPHA, false},
+              targets);
   if (features_.see_through) draw_see_through(shapes, view, targets);
   glDisable(GL_SCISSOR_TEST);
   targets.read_color(view.seen);
@@ -57,12 +59,14 @@ void BodyPass::draw_seen(const SceneShapes& shapes, Which which, bool behind_gro
 /// first covers for all.
 void BodyPass::draw_layers(const SceneShapes& shapes, const View& view, const LayerPass& pass,
                            Targets& targets) {
-  surfaces_at_ = whole_blocks(view.seen);
+  surfaces_at_ = whole_cells(view.seen);
   glDisable(GL_CULL_FACE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_ALWAYS);
   targets.bind_surface();
   pass.surface.use();
+  const bool plain = pass.plain != nullptr;
+  glUniform1i(pass.surface.location("singles_are_plain"), plain ? 1 : 0);
   shapes.draw_full_screen();
   glDepthFunc(GL_LESS);
   targets.read_surface(surfaces_at_, surfaces_);
@@ -71,6 +75,12 @@ void BodyPass::draw_layers(const SceneShapes& shapes, const View& view, const La
   targets.bind_surface_texture();
   pass.peeled ? targets.bind_peeled_color() : targets.bind_color();
   glDepthMask(GL_FALSE);
+  if (plain) {
+    glDepthFunc(GL_GREATER);
+    pass.plain->use();
+    shapes.draw_full_screen();
+    glDepthFunc(GL_LESS);
+  }
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, pass.weight_of_drawn);
   pass.layer.use();
@@ -104,7 +114,7 @@ void BodyPass::draw_see_through(const SceneShapes& shapes, const View& view, Tar
     glGetQueryObjectuiv(query.id(), GL_QUERY_RESULT, &any);
     if (any == 0) break;
     targets.bind_peeled_textures(number % 2);
-    draw_layers(shapes, view, {programs.surface, programs.layer, GL_ONE, true}, targets);
+    draw_layers(shapes, view, {programs.surface, programs.layer, nullptr, GL_ONE, true}, targets);
   }
   targets.bind_color();
   targets.bind_peeled_color_texture();

@@ -37,6 +37,7 @@ public:
 private:
   struct LayerPass {
     const Program &surface, &layer;
+    const Program* plain;  // of pixels that need no more; nullptr: there are none
     GLenum weight_of_drawn;
     bool peeled;
   };

@@ -207,11 +207,11 @@ constexpr float least_reach_of_edges = see_through ? 4.0F : 1.5F;
 /// Of the ground, by the differences in each quad of receivers `spacing` pixels apart.
 LAGOMORPH_INLINE void cover_pixels(const LightTaps& t, const Receivers& at, float spacing, Footprint& pixel) {
   const float half = 0.5F / spacing;
-  for (Index q = 0; q < all; q += 4) {
+  for (Index q = 0; q < all; q += quad) {
     const bool whole =
         both(both(at.there[q] != 0, at.there[q + 1] != 0), both(at.there[q + 2] != 0, at.there[q + 3] != 0));
     const float scale = whole ? half : 0.0F;
-    for (Index l = q; l < q + 4; ++l) {
+    for (Index l = q; l < q + quad; ++l) {
       const Index left = l & ~Index{1}, lower = l & ~Index{2};
       pixel.width_x[l] = scale * (t.tangent_at_x[left + 1] - t.tangent_at_x[left]);
       pixel.width_y[l] = scale * (t.tangent_at_y[left + 1] - t.tangent_at_y[left]);
@@ -350,6 +350,10 @@ LAGOMORPH_INLINE void shadow_of(const DepthMaps& maps, Index part, const Receive
       covers[l] =
           static_cast<int>(covered(pixel.width_x[l], pixel.height_x[l], t.least_x, spread_x[l]) > 0.0F ||
                            covered(pixel.width_y[l], pixel.height_y[l], t.least_y, spread_y[l]) > 0.0F);
+      // Whatever its companions in the block do.
+      const float kept = covers[l] != 0 ? 1.0F : 0.0F;
+      for (Lanes* side : {&pixel.width_x, &pixel.width_y, &pixel.height_x, &pixel.height_y})
+        (*side)[l] *= kept;
     }
   }
   if (any(covers)) {

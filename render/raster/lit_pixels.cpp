@@ -15,7 +15,8 @@ namespace lagomorph::render::raster {
 namespace {
 
 constexpr Parts whole = {65535, 65535, 65535, 65535};
-constexpr int ground_step = 4, surface_step = 2;  // of their cells [pixels]
+// Of cells [pixels].
+constexpr int ground_step = 4, surface_step = 2, sky_step = 4, bounce_step = 2;
 
 int down(int x, int step) { return x / step * step; }
 int up(int x, int step) { return down(x + step - 1, step); }
@@ -24,30 +25,16 @@ std::uint16_t fraction(float x) {
   return static_cast<std::uint16_t>(std::clamp(x * 65535.0F + 0.5F, 0.0F, 65535.0F));
 }
 
-/// Blocks of `part` with a block more to all sides, for neighbours of its points to be there; receivers(x, y,
-/// r) puts those of the block at a corner, `step` pixels apart, and says whether anything is there.
-template <class BlockReceivers>
-ReceiverBlocks receivers_around(const PixelRectangle& part, int step, const BlockReceivers& receivers) {
-  ReceiverBlocks all;
-  all.step = step;
-  const int width = step * block_width, height = step * block_height;
-  all.resize(part.width / width + 2, part.height / height + 2);
-  for (int k = 0; k < all.rows * all.columns; ++k) {
-    const int x = part.x + (k % all.columns - 1) * width, y = part.y + (k / all.columns - 1) * height;
-    const auto i = static_cast<std::size_t>(k);
-    all.empty[i] = receivers(x, y, all.blocks[i]) ? 0 : 1;
-  }
-  return all;
-}
-
+constexpr int side_wanted = 8;  // [pixels]
+static_assert(tile_size % side_wanted == 0 && (2 * sky_step) % side_wanted == 0);
 constexpr auto everywhere = [](int, int) { return true; };
 
 /// What cells say of a pixel.
 enum class Found { nothing_there, yes, no };
 
-constexpr int band_height = 64;  // rows, over which a block more to both sides is little
+constexpr int band_height = 64;  // rows, over which cells more to both sides are few
 
-/// Calls part() for bands of a rectangle of whole blocks of cells, counted from its corner, on all threads.
+/// Calls part() for bands of a rectangle of whole_cells(), counted from its corner, on all threads.
 /// They are the same rows of the picture whatever of it is asked for: what is shared ends with them.
 template <class Part>
 void for_bands(const PixelRectangle& at, const Part& part) {
@@ -66,152 +53,126 @@ std::size_t area(const PixelRectangle& r) {
   return static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height);
 }
 
-void put_sky(const Lanes3& seen, const Lanes& below, const PixelRectangle& at, int x, int y,
-             std::vector<Parts>& parts) {
-  for (int lane = 0; lane < lanes; ++lane) {
-    const Vec3 v = seen.at(lane);
-    parts[pixel_of(at, x + column(lane), y + row(lane))] = {fraction(v.x()), fraction(v.y()), fraction(v.z()),
-                                                            fraction(below[static_cast<std::size_t>(lane)])};
-  }
-}
-
-enum class SkyLit { left_out, diffuse, mirrored_too, softly };
-
 /// What is asked for of the pixels of a part, and where it goes; rectangles count from `lit.at`.
 struct Lighting {
   const FrameBlock& frame;
   const DepthMaps& maps;
-  SkyLit sky;
   LitPixels& lit;
 };
 
-void find_sky(const Lighting& l, const Receivers& receivers, SkySeen& seen) {
-  l.sky == SkyLit::softly ? sky_seen_softly(l.frame, l.maps, receivers, seen)
-                          : sky_seen(l.frame, l.maps, receivers, seen);
-}
-
-/// Calls to(light, seen) for each: the parts that soft_shadow() finds.
-template <class To>
-void for_lights(const Lighting& l, const ReceiverBlocks& receivers, const To& to) {
-  std::vector<float> seen;
-  for (std::size_t i = 0; i < l.maps.lights.size(); ++i) {
-    soft_shadow(l.frame, l.maps, static_cast<int>(i), receivers, seen);
-    to(i, seen);
-  }
-}
-
-constexpr std::size_t first_sky = most_lights, first_mirrored = first_sky + 4;
-
+/// Of each block, N parts of its receivers.
 template <std::size_t N>
-CoarseParts<N> parts_of_cells(const Lighting& l, const ReceiverBlocks& cells, int step) {
-  CoarseParts<N> parts(cells, step);
-  for_lights(l, cells, [&](std::size_t light, const std::vector<float>& seen) {
-    std::size_t k = 0;
-    for (int y = 0; y < parts.height(); ++y) {
-      for (int x = 0; x < parts.width(); ++x) parts.at(x, y)[light] = seen[k++];
+using BlockParts = std::vector<std::array<Lanes, N>>;
+
+/// What is seen of each light.
+struct OfLights {
+  static constexpr std::size_t count = most_lights;
+  static constexpr int quads_beside = 1;  // neighbours share
+  Lighting to;
+  Smoothness smooth = {0.1F, true};
+
+  BlockParts<count> find(const ReceiverBlocks& at) const {
+    BlockParts<count> parts(at.blocks.size());
+    std::vector<Lanes> seen;
+    for (std::size_t i = 0; i < to.maps.lights.size(); ++i) {
+      soft_shadow(to.frame, to.maps, static_cast<int>(i), at, seen);
+      for (std::size_t b = 0; b < seen.size(); ++b) parts[b][i] = seen[b];
     }
-  });
-  if constexpr (N > first_sky) {
-    cells.for_each([&](int x, int y, const Receivers& r) {
-      if (y < block_height) return;  // nobody's neighbour to the right or above
-      SkySeen seen;
-      find_sky(l, r, seen);
-      const auto put = [&](std::size_t first, const Lanes3& of) {
-        for (int lane = 0; lane < lanes; ++lane) {
-          const Vec3 v = of.at(lane);
-          float* to = parts.at(x + column(lane), y + row(lane)).data() + first;
-          to[0] = v.x(), to[1] = v.y(), to[2] = v.z(), to[3] = seen.below[static_cast<std::size_t>(lane)];
-        }
-      };
-      put(first_sky, seen.diffuse);
-      if constexpr (N > first_mirrored) put(first_mirrored, seen.mirrored);
-    });
+    return parts;
   }
-  parts.finish(cells);
-  return parts;
-}
+  void put(const std::array<float, count>& seen, std::size_t pixel) const {
+    for (std::size_t i = 0; i < to.maps.lights.size(); ++i) to.lit.lights[pixel][i] = fraction(seen[i]);
+  }
+};
 
-template <std::size_t N>
-void put_parts(const std::array<float, N>& seen, std::size_t pixel, LitPixels& lit) {
-  for (std::size_t i = 0; i < most_lights; ++i) lit.lights[pixel][i] = fraction(seen[i]);
-  const auto sky = [&](std::size_t first) -> Parts {
-    return {fraction(seen[first]), fraction(seen[first + 1]), fraction(seen[first + 2]),
-            fraction(seen[first + 3])};
-  };
-  if constexpr (N > first_sky) lit.diffuse[pixel] = sky(first_sky);
-  if constexpr (N > first_mirrored) lit.mirrored[pixel] = sky(first_mirrored);
-}
+enum class SkyLit { diffuse, mirrored_too, softly };
 
-/// Pixel by pixel, of those blocks of the part that are not empty; a block more is around.
-void light_each_pixel(const Lighting& l, const PixelRectangle& part, const ReceiverBlocks& receivers) {
-  const auto for_inner_blocks = [&](const auto& block) {
-    receivers.for_each([&](int x, int y, const Receivers& r) {
-      const int px = x - block_width, py = y - block_height;
-      if (px >= 0 && py >= 0 && px < part.width && py < part.height) block(x, y, part.x + px, part.y + py, r);
-    });
-  };
-  for_lights(l, receivers, [&](std::size_t light, const std::vector<float>& seen) {
-    for_inner_blocks([&](int x, int y, int to_x, int to_y, const Receivers&) {
-      for (int j = 0; j < block_height; ++j) {
-        const float* from = seen.data() + (y + j) * receivers.width() + x;
-        Parts* to = l.lit.lights.data() + pixel_of(l.lit.at, to_x, to_y + j);
-        for (int i = 0; i < block_width; ++i) to[i][light] = fraction(from[i]);
-      }
-    });
-  });
-  if (l.sky == SkyLit::left_out) return;
-  for_inner_blocks([&](int, int, int to_x, int to_y, const Receivers& r) {
+/// What is seen of the sky.
+template <SkyLit lit>
+struct OfSky {
+  static constexpr std::size_t count = lit == SkyLit::mirrored_too ? 7 : 4;
+  static constexpr int quads_beside = 0;
+  Lighting to;
+  Smoothness smooth = {0.1F, false};
+
+  BlockParts<count> find(const ReceiverBlocks& at) const {
+    BlockParts<count> parts(at.blocks.size());
     SkySeen seen;
-    find_sky(l, r, seen);
-    put_sky(seen.diffuse, seen.below, l.lit.at, to_x, to_y, l.lit.diffuse);
-    if (l.sky == SkyLit::mirrored_too)
-      put_sky(seen.mirrored, seen.below, l.lit.at, to_x, to_y, l.lit.mirrored);
-  });
+    for (std::size_t b = 0; b < at.blocks.size(); ++b) {
+      const Receivers& r = at.blocks[b].at;
+      lit == SkyLit::softly ? sky_seen_softly(to.frame, to.maps, r, seen)
+                            : sky_seen(to.frame, to.maps, r, seen);
+      std::array<Lanes, count>& of = parts[b];
+      of[0] = seen.diffuse.x, of[1] = seen.diffuse.y, of[2] = seen.diffuse.z, of[3] = seen.below;
+      if constexpr (lit == SkyLit::mirrored_too)
+        of[4] = seen.mirrored.x, of[5] = seen.mirrored.y, of[6] = seen.mirrored.z;
+    }
+    return parts;
+  }
+  void put(const std::array<float, count>& seen, std::size_t pixel) const {
+    to.lit.diffuse[pixel] = {fraction(seen[0]), fraction(seen[1]), fraction(seen[2]), fraction(seen[3])};
+    if constexpr (lit == SkyLit::mirrored_too)
+      to.lit.mirrored[pixel] = {fraction(seen[4]), fraction(seen[5]), fraction(seen[6]), 0};
+  }
+};
+
+/// Calls to(x, y, parts) with those of every receiver.
+template <std::size_t N, class To>
+void for_receivers(const ReceiverBlocks& at, const BlockParts<N>& parts, const To& to) {
+  for (std::size_t b = 0; b < at.blocks.size(); ++b) {
+    at.blocks[b].for_lanes([&](std::size_t lane, int x, int y) {
+      std::array<float, N> seen;
+      for (std::size_t k = 0; k < N; ++k) seen[k] = parts[b][k][lane];
+      to(x, y, seen);
+    });
+  }
 }
 
-/// By cells of step x step pixels where that will do. receivers(x, y, step, r) are those of a block at pixel
-/// (x, y) of the part; wanted(x, y) whether any is in a row of a block from there on; shared(x, y, cells,
-/// at_x, at_y, seen) what the cells, from whose own corner the pixel is at (at_x, at_y), say of it.
-template <std::size_t N, class BlockReceivers, class Wanted, class Shared>
-void light_part(const Lighting& l, const PixelRectangle& part, int step, const BlockReceivers& receivers,
+/// By cells of step x step pixels where that will do, else pixel by pixel; sides of the part are whole quads
+/// of cells. receivers(x, y, step, first lane, r) are those of the quad at pixel (x, y) of the part;
+/// wanted(x, y) whether any is in the `side_wanted`
+/// pixels from there on; shared(x, y, cells, at_x, at_y, seen) what the cells,
+/// from whose own corner the pixel is at (at_x, at_y), say of it.
+template <int step, class What, class QuadReceivers, class Wanted, class Shared>
+void light_part(const What& what, const PixelRectangle& part, const QuadReceivers& receivers,
                 const Wanted& wanted, const Shared& shared) {
-  const PixelRectangle own = {0, 0, part.width, part.height};
-  const ReceiverBlocks cells =
-      receivers_around(own, step, [&](int x, int y, Receivers& r) { return receivers(x, y, step, r); });
-  const CoarseParts<N> parts = parts_of_cells<N>(l, cells, step);
-  // The cells' border.
-  const int right = step * block_width, above = step * block_height;
-  const int columns = part.width / block_width, rows = part.height / block_height;
-  std::vector<char> alone(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
-  const auto block_of = [columns](int x, int y) {
-    const int block = y / block_height * columns + x / block_width;
-    return static_cast<std::size_t>(block);
-  };
-  bool any = false;
-  std::array<float, N> seen;
-  for (int y = 0; y < part.height; ++y) {
-    for (int left = 0; left < part.width; left += block_width) {
-      const std::size_t k = block_of(left, y);
-      if (alone[k] != 0 || !wanted(left, y)) continue;
-      for (int x = left; x < left + block_width && alone[k] == 0; ++x) {
-        switch (shared(x, y, parts, x + right, y + above, seen)) {
-          case Found::nothing_there:
-            break;
-          case Found::yes:
-            put_parts(seen, pixel_of(l.lit.at, part.x + x, part.y + y), l.lit);
-            break;
-          case Found::no:
-            alone[k] = 1, any = true;
-            break;
-        }
-      }
+  constexpr std::size_t count = What::count;
+  constexpr int before = 2 * What::quads_beside;  // cells, and two after them
+  ReceiverBlocks cells{part.width / step + before + 2, part.height / step + before + 2, step, {}};
+  for (int y = 0; y < cells.height; y += 2) {
+    for (int x = 0; x < cells.width; x += 2) {
+      cells.add(x, y, [&](int lane, Receivers& r) {
+        return receivers((x - before) * step, (y - before) * step, step, lane, r);
+      });
     }
   }
-  if (!any) return;
-  light_each_pixel(l, part, receivers_around(own, 1, [&](int x, int y, Receivers& r) {
-                     const bool inside = x >= 0 && y >= 0 && x < part.width && y < part.height;
-                     return inside && alone[block_of(x, y)] != 0 && receivers(x, y, 1, r);
-                   }));
+  CoarseParts<count, step> parts(cells);
+  for_receivers<count>(cells, what.find(cells),
+                       [&](int x, int y, const std::array<float, count>& seen) { parts.at(x, y) = seen; });
+  parts.finish(cells, what.smooth);
+  const auto pixel = [&](int x, int y) { return pixel_of(what.to.lit.at, part.x + x, part.y + y); };
+  ReceiverBlocks alone{part.width, part.height, 1, {}};
+  std::array<float, count> seen;
+  for (int y = 0; y < part.height; y += 2) {
+    for (int x = 0; x < part.width; x += 2) {
+      if (x % side_wanted == 0 && !wanted(x, y)) {
+        x += side_wanted - 2;
+        continue;
+      }
+      bool all_found = true;
+      for (int i = 0; i < quad && all_found; ++i) {
+        const int px = x + (i & 1), py = y + row(i);
+        const Found found = shared(px, py, parts, px + before * step, py + before * step, seen);
+        if (found == Found::yes) what.put(seen, pixel(px, py));
+        all_found = found != Found::no;
+      }
+      if (!all_found) alone.add(x, y, [&](int lane, Receivers& r) { return receivers(x, y, 1, lane, r); });
+    }
+  }
+  if (alone.empty()) return;
+  for_receivers<count>(alone, what.find(alone), [&](int x, int y, const std::array<float, count>& of_pixel) {
+    what.put(of_pixel, pixel(x, y));
+  });
 }
 
 /// Of tiles, those that are in runs in which lights may be hidden.
@@ -227,7 +188,7 @@ public:
       upper = std::max(upper, static_cast<int>(run.upper));
     }
     if (right <= left) return;
-    left = down(left, ground_step * block_width);  // cells' blocks are the picture's
+    left = down(left, 2 * ground_step);  // cells' quads are the picture's
     around_ = {left, lower, right - left, upper - lower};
     columns_ = around_.width / tile_size;
     rows_ = around_.height / tile_size;
@@ -266,17 +227,17 @@ private:
 
 }  // namespace
 
-PixelRectangle whole_blocks(const PixelRectangle& r) {
-  constexpr int width = surface_step * block_width, height = surface_step * block_height;
-  const int x = down(r.x, width), y = down(r.y, height);
-  return {x, y, up(r.x + r.width, width) - x, up(r.y + r.height, height) - y};
+PixelRectangle whole_cells(const PixelRectangle& r) {
+  constexpr int side = 2 * sky_step;
+  const int x = down(r.x, side), y = down(r.y, side);
+  return {x, y, up(r.x + r.width, side) - x, up(r.y + r.height, side) - y};
 }
 
 PixelRectangle with_neighbours(const PixelRectangle& r) {
-  // Bands, and the block beside them; to the sides the blocks around that of a pixel.
-  constexpr int width = ground_step * block_width, above = 2 * ground_step * block_height;
-  const int x = down(r.x, width) - width, y = down(r.y, band_height) - above;
-  return {x, y, up(r.x + r.width, width) + width - x, up(r.y + r.height, band_height) + above - y};
+  // Bands, and the cells beside them; to the sides those of all neighbours of a pixel's cells.
+  constexpr int beside = 4 * ground_step;
+  const int x = down(r.x, beside) - beside, y = down(r.y, band_height) - beside;
+  return {x, y, up(r.x + r.width, beside) + beside - x, up(r.y + r.height, band_height) + beside - y};
 }
 
 void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<const TileRun> runs,
@@ -288,40 +249,42 @@ void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<cons
   lit.mirrored.clear();
   const Vec3 normal = ground_is_below(frame) ? Vec3::UnitY() : Vec3(-Vec3::UnitY());
   for_bands(lit.at, [&](const PixelRectangle& band) {
-    const auto receivers = [&](int x, int y, int step, Receivers& r) {
-      return tiles.touch(x, band.y + y, step * block_width, step * block_height) &&
-             ground_receivers(frame, lit.at.x + x, lit.at.y + band.y + y, step, r);
+    const auto receivers = [&](int x, int y, int apart, int lane, Receivers& r) {
+      return tiles.touch(x, band.y + y, 2 * apart, 2 * apart) &&
+             ground_receivers(frame, lit.at.x + x, lit.at.y + band.y + y, apart, lane, r);
     };
-    const auto wanted = [&](int x, int y) { return tiles.touch(x, band.y + y, block_width, 1); };
-    const auto shared = [&](int, int, const CoarseParts<most_lights>& cells, int at_x, int at_y,
-                            std::array<float, most_lights>& seen) {
+    const auto wanted = [&](int x, int y) { return tiles.touch(x, band.y + y, side_wanted, 2); };
+    const auto shared = [&](int, int, const auto& cells, int at_x, int at_y, auto& seen) {
       if (cells.is_open(at_x, at_y)) return Found::nothing_there;
-      return cells.find(at_x, at_y, 0.0F, normal, 1.0F, seen) ? Found::yes : Found::no;
+      return cells.find(
+                 at_x, at_y, 0.0F, [&] { return normal; }, 1.0F, seen)
+                 ? Found::yes
+                 : Found::no;
     };
-    light_part<most_lights>({frame, maps, SkyLit::left_out, lit}, band, ground_step, receivers, wanted,
-                            shared);
+    light_part<ground_step>(OfLights{{frame, maps, lit}}, band, receivers, wanted, shared);
   });
 }
 
 namespace {
 
-/// N: parts, see CoarseParts.
-template <std::size_t N>
-void light_surfaces_by_cells(const Lighting& l, const SurfaceTexels& surfaces) {
+template <int step, class What>
+void light_surfaces_by_cells(const What& what, const SurfaceTexels& surfaces) {
+  const FrameBlock& frame = what.to.frame;
   for_bands(surfaces.at, [&](const PixelRectangle& band) {
-    const auto receivers = [&](int x, int y, int step, Receivers& r) {
-      return surface_receivers(l.frame, surfaces, band.x + x, band.y + y, step, r);
+    const auto receivers = [&](int x, int y, int apart, int lane, Receivers& r) {
+      return surface_receivers(frame, surfaces, band.x + x, band.y + y, apart, lane, r);
     };
-    const auto shared = [&](int x, int y, const CoarseParts<N>& cells, int at_x, int at_y,
-                            std::array<float, N>& seen) {
+    const auto shared = [&](int x, int y, const auto& cells, int at_x, int at_y, auto& seen) {
       const SurfaceTexel* t = surfaces.find(band.x + x, band.y + y);
       if (t == nullptr) return Found::nothing_there;
       const auto depth = std::bit_cast<float>(t->depth);
-      return cells.find(at_x, at_y, depth, normal_of(*t), 10.0F * pixel_footprint(l.frame, depth), seen)
+      return cells.find(
+                 at_x, at_y, depth, [t] { return normal_of(*t); }, 10.0F * pixel_footprint(frame, depth),
+                 seen)
                  ? Found::yes
                  : Found::no;
     };
-    light_part<N>(l, band, surface_step, receivers, everywhere, shared);
+    light_part<step>(what, band, receivers, everywhere, shared);
   });
 }
 
@@ -335,11 +298,12 @@ bool light_surfaces(const FrameBlock& frame, const DepthMaps& maps, const PixelR
   for (std::vector<Parts>* parts : {&lit.lights, &lit.diffuse}) parts->resize(area(rectangle));
   lit.mirrored.resize(maps.sky_is_map ? area(rectangle) : 0);
   const SurfaceTexels surfaces{rectangle, texels};
-  const Lighting lighting{frame, maps, maps.sky_is_map ? SkyLit::mirrored_too : SkyLit::diffuse, lit};
+  const Lighting to{frame, maps, lit};
+  light_surfaces_by_cells<surface_step>(OfLights{to}, surfaces);
   if (maps.sky_is_map) {
-    light_surfaces_by_cells<first_mirrored + 4>(lighting, surfaces);
+    light_surfaces_by_cells<sky_step>(OfSky<SkyLit::mirrored_too>{to}, surfaces);
   } else {
-    light_surfaces_by_cells<first_sky + 4>(lighting, surfaces);
+    light_surfaces_by_cells<sky_step>(OfSky<SkyLit::diffuse>{to}, surfaces);
   }
   return true;
 }
@@ -350,16 +314,21 @@ void light_ground_map(const FrameBlock& frame, const DepthMaps& maps, LitPixels&
   lit.lights.assign(area(lit.at), whole);
   lit.diffuse.resize(area(lit.at));
   lit.mirrored.clear();
-  constexpr std::size_t parts = first_sky + 4;
   for_bands(lit.at, [&](const PixelRectangle& band) {
-    const auto receivers = [&](int x, int y, int step, Receivers& r) {
-      return ground_map_receivers(frame, band.x + x, band.y + y, step, r);
+    const auto receivers = [&](int x, int y, int apart, int lane, Receivers& r) {
+      return ground_map_receivers(frame, band.x + x, band.y + y, apart, lane, r);
     };
-    const auto shared = [](int, int, const CoarseParts<parts>& cells, int at_x, int at_y,
-                           std::array<float, parts>& seen) {
-      return cells.find(at_x, at_y, 0.0F, Vec3::UnitY(), 1.0F, seen) ? Found::yes : Found::no;
+    const auto shared = [](int, int, const auto& cells, int at_x, int at_y, auto& seen) {
+      return cells.find(
+                 at_x, at_y, 0.0F, [] { return Vec3(Vec3::UnitY()); }, 1.0F, seen)
+                 ? Found::yes
+                 : Found::no;
     };
-    light_part<parts>({frame, maps, SkyLit::softly, lit}, band, surface_step, receivers, everywhere, shared);
+    // The map of what bodies see of the ground's light has a texel a cell.
+    constexpr Smoothness however = {1.0F, false};
+    const Lighting to{frame, maps, lit};
+    light_part<bounce_step>(OfLights{to, however}, band, receivers, everywhere, shared);
+    light_part<ground_step>(OfSky<SkyLit::softly>{to}, band, receivers, everywhere, shared);
   });
 }
 

@@ -22,9 +22,8 @@ struct LitPixels {
   std::vector<Parts> lights, diffuse, mirrored;  // the last two where they are asked for; else empty
 };
 
-/// The smallest rectangle of whole blocks of a surface's cells around one, in a picture of whole blocks or a
-/// little less.
-PixelRectangle whole_blocks(const PixelRectangle&);
+/// The smallest rectangle of whole quads of cells around one, in a picture of such or a little less.
+PixelRectangle whole_cells(const PixelRectangle&);
 
 /// What must be lit for the light in a rectangle to be that of the whole picture, to the bit: neighbours
 /// share.
@@ -32,7 +31,8 @@ PixelRectangle with_neighbours(const PixelRectangle&);
 
 /// Of the ground in tiles, where their lights may be hidden: the lights alone, of the rectangle around them.
 void light_ground(const FrameBlock&, const DepthMaps&, std::span<const TileRun>, LitPixels&);
-/// Of surfaces in a rectangle of whole blocks. Returns false, with nothing made, where no texel has a depth.
+/// Of surfaces in such a rectangle, see whole_cells(). Returns false, with nothing made, where no texel has a
+/// depth.
 bool light_surfaces(const FrameBlock&, const DepthMaps&, const PixelRectangle&, std::span<const SurfaceTexel>,
                     LitPixels&);
 /// Of the ground's map: lights, and what falls on it of the sky.

@@ -6,13 +6,13 @@
 #include "render/render_scene.h"
 #include "render/simd.h"
 
-/// Eight by two pixels at a time, a lane each: what points of surfaces see of the lights and the sky through
-/// depth maps, which OpenGL draws, is found on the CPU, for the software rasterizer takes ten times as long
-/// to look a texel up. The same bits on every processor.
+/// Four quads of two by two pixels at a time, a lane each: what points of surfaces see of the lights and the
+/// sky through depth maps, which OpenGL draws, is found on the CPU, for the software rasterizer takes ten
+/// times as long to look a texel up. The same bits on every processor.
 namespace lagomorph::render::raster {
 
-constexpr int block_width = 8, block_height = 2;   // pixels
-constexpr int lanes = block_width * block_height;  // four quads, pixel (x, y) of quad q in lane 4 q + 2 y + x
+constexpr int quad = 4, quads = 4;  // pixel (x, y) of quad q in lane 4 q + 2 y + x
+constexpr int lanes = quad * quads;
 using Lanes = std::array<float, lanes>;
 struct alignas(64) Lanes3 {
   Lanes x, y, z;
@@ -26,8 +26,7 @@ struct alignas(64) Lanes3 {
   }
 };
 
-/// Of a lane in its block, from the lower left.
-constexpr int column(int lane) { return 2 * (lane / 4) + (lane & 1); }
+/// Of a lane in its quad, from below.
 constexpr int row(int lane) { return (lane >> 1) & 1; }
 
 /// Points with their surfaces.

@@ -47,20 +47,25 @@ SeenPrograms::SeenPrograms(int multisample, bool colors, const LightFeatures& li
             {"#define EMITTER\n", color_definition(colors), shaders::frame, shaders::seen_fragment}),
       layer("layer", {shaders::frame, shaders::layer_vertex},
             {light_features.definitions().c_str(), definitions(multisample, colors).c_str(), shaders::frame,
-             shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point, shaders::layers,
-             shaders::layer_point, shaders::layer_fragment}) {}
+             shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point, shaders::octahedron,
+             shaders::layers, shaders::layer_point, shaders::parts_seen, shaders::layer_fragment}),
+      plain("plain", {shaders::plain_vertex},
+            {light_features.definitions().c_str(), definitions(multisample, colors).c_str(), shaders::frame,
+             shaders::brdf, shaders::sky, shaders::shade, shaders::octahedron, shaders::parts_seen,
+             shaders::plain_fragment}) {}
 
 PeelPrograms::PeelPrograms(int multisample, bool colors, const LightFeatures& light_features)
     : mesh("peeled mesh", {"#define PEEL\n", color_definition(colors), shaders::frame, shaders::mesh_vertex},
            {"#define PEEL\n", definitions(multisample, colors).c_str(), shaders::frame,
             shaders::seen_fragment}),
       surface("peeled surface", {shaders::full_screen_vertex},
-              {"#define PEEL\n", definitions(multisample, false).c_str(), shaders::frame, shaders::layers,
-               shaders::layer_point, shaders::surface_fragment}),
+              {"#define PEEL\n", definitions(multisample, false).c_str(), shaders::frame, shaders::octahedron,
+               shaders::layers, shaders::layer_point, shaders::surface_fragment}),
       layer("peeled layer", {shaders::frame, shaders::layer_vertex},
             {"#define PEEL\n", light_features.definitions().c_str(), definitions(multisample, colors).c_str(),
              shaders::frame, shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point,
-             shaders::layers, shaders::layer_point, shaders::layer_fragment}),
+             shaders::octahedron, shaders::layers, shaders::layer_point, shaders::parts_seen,
+             shaders::layer_fragment}),
       composite("peeled surfaces over the picture", {shaders::full_screen_vertex},
                 {shaders::composite_fragment}) {}
 
@@ -68,8 +73,8 @@ BodyPrograms::BodyPrograms(int multisample)
     : ground_cover("ground cover", {shaders::frame, shaders::ground_vertex},
                    {shaders::frame, shaders::ground_point, shaders::ground_cover_fragment}),
       surface("surface", {shaders::full_screen_vertex},
-              {definitions(multisample, false).c_str(), shaders::frame, shaders::layers, shaders::layer_point,
-               shaders::surface_fragment}) {}
+              {definitions(multisample, false).c_str(), shaders::frame, shaders::octahedron, shaders::layers,
+               shaders::layer_point, shaders::surface_fragment}) {}
 
 DepthPrograms::DepthPrograms()
     : mesh("mesh depth", {shaders::frame, shaders::mesh_vertex},

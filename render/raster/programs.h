@@ -28,7 +28,7 @@ LightFeatures light_features(const RenderScene&, const RenderScene& drawn);
 struct SeenPrograms {
   SeenPrograms(int multisample, bool colors, const LightFeatures&);
 
-  Program mesh, light, layer;
+  Program mesh, light, layer, plain;
 };
 
 /// What draws the surfaces that are not opaque, the next one of each sample at a time, lights them, and lays

@@ -207,7 +207,7 @@ BodyPass::View RasterRenderer::view_of_bodies(const Camera& camera, const PixelR
   const PixelRectangle picture = {0, 0, camera.width(), camera.height()};
   const PixelRectangle wanted = common_rectangle(seen_rectangle(camera, positions_, seen_), drawn);
   return {block_, gl_->maps.depths(), ground_may_hide(camera, positions_, scene_.ground),
-          common_rectangle(whole_blocks(wanted), picture)};
+          common_rectangle(whole_cells(wanted), picture)};
 }
 
 Image RasterRenderer::render(const Camera& camera, const FrameInfo& frame) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "render/raster/half.h"
 #include "render/raster/pixel_ray.h"
 
 namespace lagomorph::render::raster {
@@ -72,11 +73,10 @@ auto first_of(int x, int y, int step, const Point& point) -> decltype(point(x, y
 
 }  // namespace
 
-void ReceiverBlocks::resize(int block_columns, int block_rows) {
-  columns = block_columns, rows = block_rows;
-  const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-  blocks.resize(count);
-  empty.assign(count, 1);
+void ReceiverBlocks::begin_block() {
+  // What is left of a last one stays: no neighbour is like it.
+  blocks.emplace_back();
+  for (int lane = 0; lane < lanes; ++lane) clear(blocks.back().at, lane);
 }
 
 float pixel_footprint(const FrameBlock& frame, float depth) {
@@ -85,15 +85,15 @@ float pixel_footprint(const FrameBlock& frame, float depth) {
 
 Vec3 normal_of(const SurfaceTexel& texel) { return direction_of(unpacked(texel.normal)); }
 
-bool ground_receivers(const FrameBlock& frame, int x, int y, int step, Receivers& r) {
+bool ground_receivers(const FrameBlock& frame, int x, int y, int step, int first_lane, Receivers& r) {
   const float normal_y = ground_is_below(frame) ? 1.0F : -1.0F;
   bool any = false;
-  for (int lane = 0; lane < lanes; ++lane) {
+  for (int lane = first_lane; lane < first_lane + quad; ++lane) {
     clear(r, lane);
-    const std::optional<GroundPoint> ground =
-        first_of(x + step * column(lane), y + step * row(lane), step, [&](int px, int py) {
-          return ground_at_pixel(frame, static_cast<float>(px) + 0.5F, static_cast<float>(py) + 0.5F);
-        });
+    const int right = step * (lane & 1), above = step * row(lane);
+    const std::optional<GroundPoint> ground = first_of(x + right, y + above, step, [&](int px, int py) {
+      return ground_at_pixel(frame, static_cast<float>(px) + 0.5F, static_cast<float>(py) + 0.5F);
+    });
     if (!ground) continue;
     put_ground(r, lane, ground->point, normal_y, pixel_footprint(frame, ground->depth));
     any = true;
@@ -101,13 +101,13 @@ bool ground_receivers(const FrameBlock& frame, int x, int y, int step, Receivers
   return any;
 }
 
-bool ground_map_receivers(const FrameBlock& frame, int x, int y, int step, Receivers& r) {
+bool ground_map_receivers(const FrameBlock& frame, int x, int y, int step, int first_lane, Receivers& r) {
   const Vec4& map = frame.ground_map;
-  for (int lane = 0; lane < lanes; ++lane) {
+  for (int lane = first_lane; lane < first_lane + quad; ++lane) {
     clear(r, lane);
-    const Vec2 at = Vec2(static_cast<float>(x + step * column(lane)) + 0.5F,
-                         static_cast<float>(y + step * row(lane)) + 0.5F) /
-                    frame.counts[3];
+    const int right = step * (lane & 1), above = step * row(lane);
+    const Vec2 at =
+        Vec2(static_cast<float>(x + right) + 0.5F, static_cast<float>(y + above) + 0.5F) / frame.counts[3];
     put_ground(r, lane, Vec3((at.x() - map[2]) / map[0], frame.ground.x(), (at.y() - map[3]) / map[0]), 1.0F,
                map[1]);
   }
@@ -115,16 +115,17 @@ bool ground_map_receivers(const FrameBlock& frame, int x, int y, int step, Recei
 }
 
 bool surface_receivers(const FrameBlock& frame, const SurfaceTexels& surfaces, int x, int y, int step,
-                       Receivers& r) {
+                       int first_lane, Receivers& r) {
   struct Found {
     const SurfaceTexel* texel = nullptr;
     int x = 0, y = 0;
     explicit operator bool() const { return texel != nullptr; }
   };
   bool any = false;
-  for (int lane = 0; lane < lanes; ++lane) {
+  for (int lane = first_lane; lane < first_lane + quad; ++lane) {
     clear(r, lane);
-    const Found found = first_of(x + step * column(lane), y + step * row(lane), step, [&](int px, int py) {
+    const int right = step * (lane & 1), above = step * row(lane);
+    const Found found = first_of(x + right, y + above, step, [&](int px, int py) {
       return Found{surfaces.find(px, py), px, py};
     });
     if (!found) continue;
@@ -139,8 +140,8 @@ bool surface_receivers(const FrameBlock& frame, const SurfaceTexels& surfaces, i
     const Vec3 normal = normal_of(t);
     r.normal.set(lane, normal);
     r.mirrored.set(lane, mirrored_view(-ray.direction.normalized(), normal));
-    r.roughness[l] = static_cast<float>(t.finish - 1U) / 65534.0F;
-    r.raised[l] = std::bit_cast<float>(t.raised);
+    r.roughness[l] = static_cast<float>(t.lit() - 1U) / 65534.0F;
+    r.raised[l] = from_half(static_cast<std::uint16_t>(t.raised & 0xffffU));
     r.depth[l] = depth;
     r.footprint[l] = pixel_footprint(frame, depth);
   }

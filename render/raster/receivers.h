@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,8 +17,11 @@ namespace lagomorph::render::raster {
 struct SurfaceTexel {
   std::uint32_t depth;   // bits of a float, along the view axis [m]
   std::uint32_t normal;  // two fractions in [-1, 1] of 16 bits, on the octahedron
-  std::uint32_t raised;  // bits of a float, see Receivers [m]
-  std::uint32_t finish;  // 1 + 65534 times the roughness; 0: nothing, or nothing that is lit
+  std::uint32_t raised;  // lower half: bits of a half float, see Receivers [m]; upper: the surface's number
+  std::uint32_t finish;  // lower half: see lit(); upper: the samples of the layer
+
+  /// 1 + 65534 times the roughness; 0: nothing, or nothing that is lit.
+  std::uint32_t lit() const { return finish & 0xffffU; }
 };
 
 /// Those of a rectangle of pixels, rows from below.
@@ -29,7 +34,7 @@ struct SurfaceTexels {
     if (x < 0 || y < 0 || x >= at.width || y >= at.height) return nullptr;
     const SurfaceTexel& t = texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(at.width) +
                                    static_cast<std::size_t>(x)];
-    return t.finish == 0 ? nullptr : &t;
+    return t.lit() == 0 ? nullptr : &t;
   }
 };
 
@@ -38,31 +43,56 @@ Vec3 normal_of(const SurfaceTexel&);
 /// Size of a pixel at a depth along the view axis [m], as pixel_footprint() of the shaders.
 float pixel_footprint(const FrameBlock&, float depth);
 
-/// A rectangle of pixels, or of cells of several, as blocks of receivers: rows of blocks from below.
-struct ReceiverBlocks {
-  int columns = 0, rows = 0;  // of blocks
-  int step = 1;               // from one receiver to the next [pixels]
-  std::vector<Receivers> blocks;
-  std::vector<char> empty;  // 1: nothing is in the block
+/// Of a block's quads, the lower left receiver.
+struct QuadPlace {
+  int x, y;
+};
 
-  int width() const { return columns * block_width; }
-  int height() const { return rows * block_height; }
-  void resize(int block_columns, int block_rows);
-  /// Calls block(x, y, receivers) for those that are not empty, at their lower left corners.
-  template <class Block>
-  void for_each(const Block& block) const {
-    for (int k = 0; k < rows * columns; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      if (empty[i] == 0) block(k % columns * block_width, k / columns * block_height, blocks[i]);
+/// Quads from anywhere; the lanes beyond `used` are not there.
+struct ReceiverBlock {
+  Receivers at;
+  std::array<QuadPlace, quads> places;
+  int used = 0;
+
+  std::span<const QuadPlace> used_places() const { return {places.data(), static_cast<std::size_t>(used)}; }
+  /// Calls to(lane, x, y) for the receivers of its quads.
+  template <class To>
+  void for_lanes(const To& to) const {
+    for (int lane = 0; lane < used * quad; ++lane) {
+      const QuadPlace& place = places[static_cast<std::size_t>(lane / quad)];
+      to(static_cast<std::size_t>(lane), place.x + (lane & 1), place.y + row(lane));
     }
   }
 };
 
-/// Each puts the points of the pixels `step` apart from (x, y) on into a block, and returns whether any is
-/// there. Each stands for its cell of step x step pixels: the lower left one where something is seen there.
-bool ground_receivers(const FrameBlock&, int x, int y, int step, Receivers&);
-bool surface_receivers(const FrameBlock&, const SurfaceTexels&, int x, int y, int step, Receivers&);
+/// Of a grid of width x height receivers, those quads that are wanted: many lanes of few blocks.
+struct ReceiverBlocks {
+  int width = 0, height = 0;
+  int step = 1;  // from one receiver to the next [pixels]
+  std::vector<ReceiverBlock> blocks;
+
+  bool empty() const { return blocks.empty() || blocks.front().used == 0; }
+  /// The quad at (x, y) if put(first lane, receivers) says that something is there.
+  template <class Put>
+  void add(int x, int y, const Put& put) {
+    if (blocks.empty() || blocks.back().used == quads) begin_block();
+    ReceiverBlock& block = blocks.back();
+    if (!put(quad * block.used, block.at)) return;
+    block.places[static_cast<std::size_t>(block.used)] = {x, y};
+    ++block.used;
+  }
+
+private:
+  void begin_block();
+};
+
+/// Each puts the points of the quad of pixels `step` apart from (x, y) on into lanes from the first on, and
+/// returns whether any is there. Each stands for its cell of step x step pixels: the lower left one where
+/// something is seen there.
+bool ground_receivers(const FrameBlock&, int x, int y, int step, int first_lane, Receivers&);
+bool surface_receivers(const FrameBlock&, const SurfaceTexels&, int x, int y, int step, int first_lane,
+                       Receivers&);
 /// Of the ground's map, all.
-bool ground_map_receivers(const FrameBlock&, int x, int y, int step, Receivers&);
+bool ground_map_receivers(const FrameBlock&, int x, int y, int step, int first_lane, Receivers&);
 
 }  // namespace lagomorph::render::raster

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <optional>
-#include <utility>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "render/raster/light_parts.h"
@@ -15,18 +15,20 @@
 namespace lagomorph::render::raster {
 namespace {
 
-/// Pixels [left, right) x [lower, upper), whole blocks.
+/// Pixels [left, right) x [lower, upper).
 struct Bounds {
   int left = 0, right = 0, lower = 0, upper = 0;
 };
 
-/// Around the blocks that have something in them.
+/// Around all quads.
 Bounds bounds_of(const ReceiverBlocks& at) {
-  Bounds b{at.width(), 0, at.height(), 0};
-  at.for_each([&](int x, int y, const Receivers&) {
-    b.left = std::min(b.left, x), b.right = std::max(b.right, x + block_width);
-    b.lower = std::min(b.lower, y), b.upper = std::max(b.upper, y + block_height);
-  });
+  Bounds b{at.width, 0, at.height, 0};
+  for (const ReceiverBlock& block : at.blocks) {
+    block.for_lanes([&](std::size_t, int x, int y) {
+      b.left = std::min(b.left, x), b.right = std::max(b.right, x + 1);
+      b.lower = std::min(b.lower, y), b.upper = std::max(b.upper, y + 1);
+    });
+  }
   return b;
 }
 
@@ -39,21 +41,34 @@ public:
         values_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(at.upper - at.lower + 2),
                 value) {}
 
-  /// Pixel x of the row is at [x - left()].
+  /// Pixel x of the row is at [x - left].
   float* row(int y) { return values_.data() + place(y); }
   const float* row(int y) const { return values_.data() + place(y); }
-  int left() const { return at_.left; }
-  void put(int x, int y, const Lanes& from) {
-    for (int lane = 0; lane < lanes; ++lane)
-      row(y + raster::row(lane))[x - at_.left + column(lane)] = from[static_cast<std::size_t>(lane)];
+  void put(const ReceiverBlock& at, const Lanes& from) {
+    std::size_t lane = 0;
+    for (const QuadPlace& quad : at.used_places()) {
+      float* const lower = values_.data() + place(quad);
+      float* const upper = lower + stride_;
+      lower[0] = from[lane], lower[1] = from[lane + 1];
+      upper[0] = from[lane + 2], upper[1] = from[lane + 3];
+      lane += raster::quad;
+    }
   }
-  void get(int x, int y, Lanes& to) const {
-    for (int lane = 0; lane < lanes; ++lane)
-      to[static_cast<std::size_t>(lane)] = row(y + raster::row(lane))[x - at_.left + column(lane)];
+  /// The other lanes stay.
+  void get(const ReceiverBlock& at, Lanes& to) const {
+    std::size_t lane = 0;
+    for (const QuadPlace& quad : at.used_places()) {
+      const float* const lower = values_.data() + place(quad);
+      const float* const upper = lower + stride_;
+      to[lane] = lower[0], to[lane + 1] = lower[1];
+      to[lane + 2] = upper[0], to[lane + 3] = upper[1];
+      lane += raster::quad;
+    }
   }
 
 private:
   std::ptrdiff_t place(int y) const { return stride_ * (y - at_.lower + 1) + 1; }
+  std::ptrdiff_t place(const QuadPlace& at) const { return place(at.y) + at.x - at_.left; }
 
   Bounds at_;
   std::ptrdiff_t stride_;
@@ -89,100 +104,142 @@ LAGOMORPH_RENDER_SIMD void add_neighbours(const Rows& depth, const float* tolera
   }
 }
 
-/// Pixels [first, last) of each row, from the left bound, that are in blocks with something in them.
+/// Pixels [first, last) of a row, from the left bound, between which its quads are.
 struct Span {
   int first = 0, last = 0;
 };
 std::vector<Span> spans_of(const ReceiverBlocks& at, const Bounds& bounds) {
   std::vector<Span> spans(static_cast<std::size_t>(bounds.upper - bounds.lower));
-  at.for_each([&](int x, int y, const Receivers&) {
-    for (int row = y; row < y + block_height; ++row) {
-      Span& span = spans[static_cast<std::size_t>(row - bounds.lower)];
-      if (span.last == 0) span.first = x - bounds.left;
-      span.last = x - bounds.left + block_width;
-    }
-  });
+  for (const ReceiverBlock& block : at.blocks) {
+    block.for_lanes([&](std::size_t, int x, int y) {
+      Span& span = spans[static_cast<std::size_t>(y - bounds.lower)];
+      const int here = x - bounds.left;
+      span.first = span.last == 0 ? here : std::min(span.first, here);
+      span.last = std::max(span.last, here + 1);
+    });
+  }
   return spans;
 }
 
 constexpr float unlike_all = -3e9F;
 
-/// Of a part of a light, which soft_shadow() puts together; nothing where all is seen.
-std::optional<Plane> shadow_of_part(const DepthMaps& maps, std::size_t part, const ReceiverBlocks& at,
-                                    const Bounds& bounds) {
-  const auto spacing = static_cast<float>(at.step);
-  Plane depth(bounds, unlike_all), tolerance(bounds, 0.0F), nearness(bounds, 0.0F), taps(bounds, 0.0F);
-  bool any_blocked = false;
-  at.for_each([&](int x, int y, const Receivers& r) {
-    Blockers found;
-    find_blockers(maps, part, r, spacing, found);
-    Lanes reach;
-    std::transform(r.footprint.begin(), r.footprint.end(), reach.begin(), [](float f) { return 10.0F * f; });
-    depth.put(x, y, found.depth);
-    tolerance.put(x, y, reach);
-    nearness.put(x, y, found.nearness);
-    taps.put(x, y, found.taps);
-    any_blocked |= std::any_of(found.taps.begin(), found.taps.end(), [](float t) { return t > 0.0F; });
-  });
-  if (!any_blocked) return std::nullopt;
-  const std::vector<Span> spans = spans_of(at, bounds);
-  const auto for_rows = [&](const auto& row) {
-    for (int y = bounds.lower; y < bounds.upper; ++y)
-      row(y, spans[static_cast<std::size_t>(y - bounds.lower)]);
-  };
-  Plane shared_nearness(bounds, 0.0F), shared_taps(bounds, 0.0F);
-  for_rows([&](int y, const Span& span) {
-    add_neighbours({depth, y}, tolerance.row(y), {nearness, y}, {taps, y}, span.first, span.last,
-                   shared_nearness.row(y), shared_taps.row(y));
-  });
-  Plane& blocked = nearness;  // their room
-  Plane& share = taps;
-  at.for_each([&](int x, int y, const Receivers& r) {
-    Blockers found;
-    shared_nearness.get(x, y, found.nearness);
-    shared_taps.get(x, y, found.taps);
-    Shadow shadow;
-    filter_shadow(maps, part, r, found, spacing, shadow);
-    blocked.put(x, y, shadow.blocked);
-    share.put(x, y, shadow.share);
-  });
-  const Plane one(bounds, 1.0F);
-  Plane &sum = shared_nearness, &count = shared_taps;
-  for_rows([&](int y, const Span& span) {
-    add_neighbours({depth, y}, tolerance.row(y), {blocked, y}, {one, y}, span.first, span.last, sum.row(y),
-                   count.row(y));
-  });
-  for_rows([&](int y, const Span& span) {
-    float* const seen = sum.row(y);
-    for (int x = span.first; x < span.last; ++x) {
-      const float alone = blocked.row(y)[x];
-      const float mean = count.row(y)[x] > 0.0F ? seen[x] / count.row(y)[x] : alone;
-      seen[x] = 1.0F - (alone + share.row(y)[x] * (mean - alone));
-    }
-  });
-  return std::move(sum);
+bool any_positive(const Lanes& values) {
+  return std::any_of(values.begin(), values.end(), [](float v) { return v > 0.0F; });
 }
 
-/// Of all parts, by what each gives.
-void put_together(const FrameBlock& frame, const DepthMaps& maps, const LightParts& parts,
-                  const std::vector<std::optional<Plane>>& of_parts, const Receivers& r, int x, int y,
-                  Lanes& seen) {
-  std::array<Lanes, most_parts_along * most_parts_along> part_seen;
-  bool any_hidden = parts.below_ground && !r.is_ground;
-  for (std::size_t k = 0; k < parts.count; ++k) {
-    part_seen[k].fill(1.0F);
-    if (of_parts[k]) of_parts[k]->get(x, y, part_seen[k]);
-    any_hidden |= std::any_of(part_seen[k].begin(), part_seen[k].end(), [](float s) { return s < 1.0F; });
+/// Of what is blocked for a receiver alone, and for its neighbours as well by a share of their mean.
+LAGOMORPH_RENDER_SIMD void part_seen(const Lanes& alone, const Lanes& share, const Lanes& sum,
+                                     const Lanes& count, Lanes& seen) {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const float mean = count[l] > 0.0F ? sum[l] / count[l] : alone[l];
+    seen[l] = 1.0F - (alone[l] + share[l] * (mean - alone[l]));
   }
-  seen.fill(1.0F);
-  if (!any_hidden) return;
+}
+
+/// What is seen of one part of a light after another.
+class PartShadow {
+public:
+  explicit PartShadow(const ReceiverBlocks& at)
+      : at_(at),
+        bounds_(bounds_of(at)),
+        spans_(spans_of(at, bounds_)),
+        hidden_(at.blocks.size(), 0),
+        depth_(bounds_, unlike_all),
+        tolerance_(bounds_, 0.0F),
+        one_(bounds_, 1.0F),
+        nearness_(bounds_, 0.0F),
+        taps_(bounds_, 0.0F),
+        shared_nearness_(bounds_, 0.0F),
+        shared_taps_(bounds_, 0.0F) {
+    Lanes reach{};
+    for (const ReceiverBlock& block : at.blocks) {
+      const Lanes& footprint = block.at.footprint;
+      std::transform(footprint.begin(), footprint.end(), reach.begin(), [](float f) { return 10.0F * f; });
+      tolerance_.put(block, reach);
+    }
+  }
+
+  /// Returns false, with nothing found, where all of it is seen by all.
+  bool find(const DepthMaps& maps, std::size_t part) {
+    if (!search(maps, part)) return false;
+    share(nearness_, taps_);
+    Plane& blocked = nearness_;  // their room
+    Plane& shared = taps_;
+    const auto spacing = static_cast<float>(at_.step);
+    for (std::size_t b = 0; b < at_.blocks.size(); ++b) {
+      const ReceiverBlock& block = at_.blocks[b];
+      Blockers found{};
+      shared_taps_.get(block, found.taps);
+      hidden_[b] = any_positive(found.taps) ? 1 : 0;
+      if (hidden_[b] == 0) continue;  // its planes are 0 there
+      shared_nearness_.get(block, found.nearness);
+      Shadow shadow;
+      filter_shadow(maps, part, block.at, found, spacing, shadow);
+      blocked.put(block, shadow.blocked);
+      shared.put(block, shadow.share);
+    }
+    share(blocked, one_);
+    return true;
+  }
+  /// The part that is seen by a block; returns false, with nothing found, where that is all.
+  bool get(std::size_t block, Lanes& seen) const {
+    if (hidden_[block] == 0) return false;
+    const ReceiverBlock& at = at_.blocks[block];
+    Lanes alone{}, share{}, sum{}, count{};
+    nearness_.get(at, alone);
+    taps_.get(at, share);
+    shared_nearness_.get(at, sum);
+    shared_taps_.get(at, count);
+    part_seen(alone, share, sum, count, seen);
+    return true;
+  }
+
+private:
+  bool search(const DepthMaps& maps, std::size_t part) {
+    const auto spacing = static_cast<float>(at_.step);
+    bool any_blocked = false;
+    for (const ReceiverBlock& block : at_.blocks) {
+      Blockers found;
+      find_blockers(maps, part, block.at, spacing, found);
+      depth_.put(block, found.depth);
+      nearness_.put(block, found.nearness);
+      taps_.put(block, found.taps);
+      any_blocked |= any_positive(found.taps);
+    }
+    return any_blocked;
+  }
+  /// Sums over neighbours.
+  void share(const Plane& a, const Plane& b) {
+    for (int y = bounds_.lower; y < bounds_.upper; ++y) {
+      const Span& span = spans_[static_cast<std::size_t>(y - bounds_.lower)];
+      add_neighbours({depth_, y}, tolerance_.row(y), {a, y}, {b, y}, span.first, span.last,
+                     shared_nearness_.row(y), shared_taps_.row(y));
+    }
+  }
+
+  const ReceiverBlocks& at_;
+  Bounds bounds_;
+  std::vector<Span> spans_;
+  std::vector<char> hidden_;  // some of the part may be from the block
+  Plane depth_, tolerance_, one_, nearness_, taps_, shared_nearness_, shared_taps_;
+};
+
+constexpr std::int32_t all_seen = -1;
+
+/// Of all parts, by what each gives; `of_parts` numbers what is seen of each, or is all_seen.
+void put_together(const FrameBlock& frame, const DepthMaps& maps, const LightParts& parts,
+                  const std::int32_t* of_parts, std::span<const Lanes> parts_seen, const Receivers& r,
+                  Lanes& seen) {
   Lanes given{}, arriving{};
   for (std::size_t k = 0; k < parts.count; ++k) {
     PartLight light;
     light_of_part(frame, maps.parts[parts.first + k].light, r, light);
+    Lanes part_seen;
+    part_seen.fill(1.0F);
+    if (of_parts[k] != all_seen) part_seen = parts_seen[static_cast<std::size_t>(of_parts[k])];
     for (std::size_t l = 0; l < lanes; ++l) {
       given[l] += light.whole[l];
-      arriving[l] += light.past_ground[l] * part_seen[k][l];
+      arriving[l] += light.past_ground[l] * part_seen[l];
     }
   }
   for (std::size_t l = 0; l < lanes; ++l) {
@@ -193,30 +250,36 @@ void put_together(const FrameBlock& frame, const DepthMaps& maps, const LightPar
 }  // namespace
 
 void soft_shadow(const FrameBlock& frame, const DepthMaps& maps, int light, const ReceiverBlocks& at,
-                 std::vector<float>& seen) {
+                 std::vector<Lanes>& seen) {
   const LightParts& parts = maps.lights[static_cast<std::size_t>(light)];
-  const auto width = static_cast<std::size_t>(at.width());
-  seen.assign(width * static_cast<std::size_t>(at.height()), 1.0F);
-  const Bounds bounds = bounds_of(at);
-  if (bounds.right <= bounds.left) return;
-  std::vector<std::optional<Plane>> of_parts;
-  of_parts.reserve(parts.count);
-  for (std::size_t k = 0; k < parts.count; ++k)
-    of_parts.push_back(shadow_of_part(maps, parts.first + k, at, bounds));
-  const bool alone = parts.count == 1 && !parts.below_ground;
-  if (alone && !of_parts[0]) return;
-  at.for_each([&](int x, int y, const Receivers& r) {
-    Lanes of_block;
-    if (alone) {
-      of_parts[0]->get(x, y, of_block);
-    } else {
-      put_together(frame, maps, parts, of_parts, r, x, y, of_block);
+  Lanes all;
+  all.fill(1.0F);
+  seen.assign(at.blocks.size(), all);
+  if (at.empty()) return;
+  PartShadow shadow(at);
+  if (parts.count == 1 && !parts.below_ground) {
+    if (!shadow.find(maps, parts.first)) return;
+    for (std::size_t b = 0; b < at.blocks.size(); ++b) shadow.get(b, seen[b]);
+    return;
+  }
+  std::vector<Lanes> parts_seen;  // where they are not seen whole
+  std::vector<std::int32_t> of_parts(at.blocks.size() * parts.count, all_seen);
+  for (std::size_t k = 0; k < parts.count; ++k) {
+    if (!shadow.find(maps, parts.first + k)) continue;
+    for (std::size_t b = 0; b < at.blocks.size(); ++b) {
+      Lanes of_part;
+      if (!shadow.get(b, of_part)) continue;
+      of_parts[b * parts.count + k] = static_cast<std::int32_t>(parts_seen.size());
+      parts_seen.push_back(of_part);
     }
-    for (int lane = 0; lane < lanes; ++lane) {
-      seen[static_cast<std::size_t>(y + row(lane)) * width + static_cast<std::size_t>(x + column(lane))] =
-          of_block[static_cast<std::size_t>(lane)];
-    }
-  });
+  }
+  for (std::size_t b = 0; b < at.blocks.size(); ++b) {
+    const std::int32_t* of_block = of_parts.data() + b * parts.count;
+    const Receivers& r = at.blocks[b].at;
+    const bool hidden = std::any_of(of_block, of_block + parts.count, [](auto n) { return n != all_seen; });
+    if (hidden || (parts.below_ground && !r.is_ground))
+      put_together(frame, maps, parts, of_block, parts_seen, r, seen[b]);
+  }
 }
 
 }  // namespace lagomorph::render::raster

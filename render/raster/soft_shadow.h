@@ -8,11 +8,12 @@
 
 namespace lagomorph::render::raster {
 
-/// Part of a light that each pixel sees, rows from below. What a pixel and its eight neighbours find is
+/// Part of a light that each receiver of each block sees. What a pixel and its eight neighbours find is
 /// averaged, where they see the same surface to judge by their depths: weights of 1, 2 and 4 count all four
 /// pixels of a quad alike, wherever it is, so that nothing is left of their different taps. Pixels within 2
-/// of the border lack neighbours. Of a light in parts each is found by itself, and counts by what it gives.
+/// of the border, or of a quad that is not wanted, lack neighbours. Of a light in parts each is found by
+/// itself, and counts by what it gives.
 void soft_shadow(const FrameBlock&, const DepthMaps&, int light, const ReceiverBlocks&,
-                 std::vector<float>& seen);
+                 std::vector<Lanes>& seen);
 
 }  // namespace lagomorph::render::raster

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 
 #include <tbb/parallel_for.h>
 
+#include "render/raster/half.h"
 #include "render/raster/pixel_ray.h"
 #include "render/simd.h"
 
@@ -55,11 +55,6 @@ struct TakenRow {
   float mirrored;                    // 0: nothing of what the ground mirrors is taken
   float* color;
 };
-
-/// A half float that is neither negative nor infinite.
-LAGOMORPH_INLINE float from_half(std::uint16_t half) {
-  return std::bit_cast<float>(static_cast<std::uint32_t>(half) << 13U) * 0x1p112F;
-}
 
 LAGOMORPH_RENDER_SIMD void take(const TakenRow& r, const Color& open_sky, const Color& below,
                                 const Color& of_meshes) {

@@ -136,6 +136,14 @@ void main() {
 }
 )";
 
+const char* const octahedron = R"(
+vec3 direction_of(vec2 p) {
+  vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+  if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(n.xy, vec2(0.0)));
+  return normalize(n);
+}
+)";
+
 // The samples of a pixel, sorted into layers: one a surface that is seen in it, seldom more than one.
 const char* const layers = R"(
 #if SAMPLES > 1
@@ -149,12 +157,6 @@ layout(binding = 6) uniform usampler2D seen_samples;
 layout(binding = 12) uniform sampler2D tint_samples;
 #endif
 #endif
-
-vec3 direction_of(vec2 p) {
-  vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-  if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(n.xy, vec2(0.0)));
-  return normalize(n);
-}
 
 struct Sample {
   float depth;
@@ -235,12 +237,14 @@ LayerPoint layer_point(Layers l, int layer) {
 
 // The first layer's surface, for the CPU to find what it sees of the lights and the sky: SurfaceTexel of
 // receivers.h. Point and plane are those of one sample, for the mean of two triangles' is on neither. The
-// number of the pixel's layers is its depth, so that the passes that light them skip all others.
+// number of the pixel's layers is its depth, so that the passes that light them skip all others. Where there
+// is one, as in most, and nothing but the texel is needed to light it, the depth is that of plain_vertex.
 const char* const surface_fragment = R"(
+uniform bool singles_are_plain;
 out uvec4 texel;
 void main() {
   Layers l = sort_samples();
-  gl_FragDepth = 0.125 * float(l.count);
+  gl_FragDepth = l.count == 0 ? 0.05 : 0.125 * float(l.count);
   texel = uvec4(0u);
   if (l.count == 0) return;
   LayerPoint p = layer_point(l, 0);
@@ -260,16 +264,63 @@ void main() {
 #ifndef PEEL
   raised = sample_of.raised;
 #endif
-  texel = uvec4(floatBitsToUint(sample_of.depth), packSnorm2x16(p.normals.xy), floatBitsToUint(raised),
-                surface.color.w < 0.5 ? finish : 0u);
+  bool is_light = surface.color.w > 0.5;
+  if (singles_are_plain && l.count == 1 && !is_light) gl_FragDepth = 0.01;
+  texel = uvec4(floatBitsToUint(sample_of.depth), packSnorm2x16(p.normals.xy),
+                packHalf2x16(vec2(raised, 0.0)) | (p.id - 1u) << 16u,
+                (is_light ? 0u : finish) | uint(p.count) << 16u);
+}
+)";
+
+// What the CPU found that a pixel sees.
+const char* const parts_seen = R"(
+layout(binding = 0) uniform sampler2DArray seen_of_pixel;  // parts seen of four lights, of the sky, and mirrored
+layout(binding = 15) uniform usampler2D surface_of_pixel;  // see surface_fragment
+SkySeen parts_seen(ivec2 pixel, out vec4 lights_seen) {
+  SkySeen sky;
+  lights_seen = texelFetch(seen_of_pixel, ivec3(pixel, 0), 0);
+  vec4 of_sky = texelFetch(seen_of_pixel, ivec3(pixel, 1), 0);
+  sky.diffuse = of_sky.rgb;
+  sky.below = of_sky.w;
+#ifdef SKY_MAP
+  sky.mirrored = texelFetch(seen_of_pixel, ivec3(pixel, 2), 0).rgb;
+#else
+  sky.mirrored = sky.diffuse;
+#endif
+  return sky;
+}
+)";
+
+// Before the depth of pixels of the next shader alone.
+const char* const plain_vertex = R"(
+void main() {
+  vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  gl_Position = vec4(p, 2.0 * 0.03 - 1.0, 1.0);
+}
+)";
+
+// A pixel of one layer before the ground: its samples need not be looked at again.
+const char* const plain_fragment = R"(
+out vec4 color;
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  uvec4 texel = texelFetch(surface_of_pixel, pixel, 0);
+  vec3 origin, direction;
+  pixel_ray(origin, direction);
+  Point p;
+  p.x = origin + uintBitsToFloat(texel.x) * direction;
+  p.normal = direction_of(unpackSnorm2x16(texel.y));
+  vec4 lights_seen;
+  SkySeen sky = parts_seen(pixel, lights_seen);
+  vec3 lit = shade(p, -normalize(direction), surfaces[texel.z >> 16u], lights_seen, sky,
+                   radiance_from_below(p.x, p.normal));
+  color = float(texel.w >> 16u) / float(SAMPLES) * vec4(lit, 1.0);
 }
 )";
 
 // Lights one layer of the pixel and adds it to what is behind. The first layer makes room for all. Behind the
 // ground, only what its fading edge lets through is seen, instead of the background there.
 const char* const layer_fragment = R"(
-layout(binding = 0) uniform sampler2DArray seen_of_pixel;  // parts seen of four lights, of the sky, and mirrored
-layout(binding = 15) uniform usampler2D surface_of_pixel;  // see surface_fragment
 uniform int layer;
 out vec4 color;
 
@@ -284,7 +335,7 @@ ivec2 pixel_like(LayerPoint p) {
     int place = (k + 4) % 9;  // from the middle on
     ivec2 at = clamp(here + ivec2(place % 3 - 1, place / 3 - 1), ivec2(0), ivec2(viewport.xy) - 1);
     uvec4 there = texelFetch(surface_of_pixel, at, 0);
-    if (there.w == 0u) continue;
+    if ((there.w & 0xffffu) == 0u) continue;
     vec2 turn = abs(unpackSnorm2x16(there.y) - p.normals.xy);
     float unlike = abs(uintBitsToFloat(there.x) - p.depth) / pixel_footprint(p.depth) + 8.0 * (turn.x + turn.y);
     if (unlike >= least) continue;
@@ -335,17 +386,7 @@ void main() {
   ivec2 pixel = pixel_like(mean);
   vec4 lights_seen = vec4(1.0);
   SkySeen sky = SkySeen(vec3(1.0), vec3(1.0), 1.0);
-  if (pixel.x >= 0) {
-    lights_seen = texelFetch(seen_of_pixel, ivec3(pixel, 0), 0);
-    vec4 of_sky = texelFetch(seen_of_pixel, ivec3(pixel, 1), 0);
-    sky.diffuse = of_sky.rgb;
-    sky.below = of_sky.w;
-#ifdef SKY_MAP
-    sky.mirrored = texelFetch(seen_of_pixel, ivec3(pixel, 2), 0).rgb;
-#else
-    sky.mirrored = sky.diffuse;
-#endif
-  }
+  if (pixel.x >= 0) sky = parts_seen(pixel, lights_seen);
   vec3 lit = shade(p, v, surface, lights_seen, sky, radiance_from_below(p.x, p.normal));
 #ifdef PEEL
   color = vec4(weight_before * lit, weight_before);

@@ -9,6 +9,7 @@ extern const char* const sky;           // the sky's light on a point
 extern const char* const shade;         // all of it together
 extern const char* const ground_point;  // where a pixel sees the ground
 extern const char* const ground_color;
+extern const char* const octahedron;
 extern const char* const layers;       // the samples of a pixel, sorted by surface
 extern const char* const layer_point;  // the mean of one of those
 
@@ -24,6 +25,9 @@ extern const char* const still_fragment;
 extern const char* const backdrop_fragment;
 extern const char* const ground_light_fragment;
 extern const char* const surface_fragment;
+extern const char* const parts_seen;
+extern const char* const plain_vertex;
+extern const char* const plain_fragment;
 extern const char* const layer_fragment;
 extern const char* const ground_cover_fragment;
 extern const char* const ground_map_fragment;

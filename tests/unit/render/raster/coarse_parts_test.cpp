@@ -8,37 +8,45 @@ namespace lagomorph::render::raster {
 namespace {
 
 constexpr int step = 4;
-using Cells = CoarseParts<1>;
+using Cells = CoarseParts<1, step>;
 
-/// One block of cells of a plane at depth 1 that looks at the viewer; cells from `edge` on are of another.
-ReceiverBlocks cells_of_a_plane(int edge = block_width, const Vec3& other_normal = Vec3::UnitZ(),
+constexpr int width = 8, height = 2;  // cells
+
+/// Cells of a plane at depth 1 that looks at the viewer; those from `edge` on are of another.
+ReceiverBlocks cells_of_a_plane(int edge = width, const Vec3& other_normal = Vec3::UnitZ(),
                                 float other_depth = 1.0F) {
-  ReceiverBlocks cells;
-  cells.resize(1, 1);
-  cells.empty[0] = 0;
-  for (int lane = 0; lane < lanes; ++lane) {
-    const auto l = static_cast<std::size_t>(lane);
-    const bool other = column(lane) >= edge;
-    cells.blocks[0].there[l] = 1;
-    cells.blocks[0].normal.set(lane, other ? other_normal : Vec3::UnitZ());
-    cells.blocks[0].depth[l] = other ? other_depth : 1.0F;
+  ReceiverBlocks cells{width, height, step, {}};
+  for (int x = 0; x < width; x += 2) {
+    cells.add(x, 0, [&](int first_lane, Receivers& r) {
+      for (int lane = first_lane; lane < first_lane + quad; ++lane) {
+        const auto l = static_cast<std::size_t>(lane);
+        const bool other = x + (lane & 1) >= edge;
+        r.there[l] = 1;
+        r.normal.set(lane, other ? other_normal : Vec3::UnitZ());
+        r.depth[l] = other ? other_depth : 1.0F;
+      }
+      return true;
+    });
   }
   return cells;
 }
 
 /// Parts by the cell's column.
-Cells filled(const ReceiverBlocks& receivers, const std::array<float, block_width>& parts) {
-  Cells cells(receivers, step);
-  for (int y = 0; y < block_height; ++y) {
-    for (int x = 0; x < block_width; ++x) cells.at(x, y)[0] = parts[static_cast<std::size_t>(x)];
+Cells filled(const ReceiverBlocks& receivers, const std::array<float, width>& parts) {
+  Cells cells(receivers);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) cells.at(x, y)[0] = parts[static_cast<std::size_t>(x)];
   }
-  cells.finish(receivers);
+  cells.finish(receivers, {0.1F, true});
   return cells;
 }
 
 float found(const Cells& cells, int x, float depth = 1.0F, const Vec3& normal = Vec3::UnitZ()) {
   Cells::Parts seen;
-  return cells.find(x, 1, depth, normal, 0.1F, seen) ? seen[0] : -1.0F;
+  return cells.find(
+             x, 1, depth, [&] { return normal; }, 0.1F, seen)
+             ? seen[0]
+             : -1.0F;
 }
 
 TEST(CoarseParts, AreBilinearBetweenCells) {
@@ -71,12 +79,12 @@ TEST(CoarseParts, DoNotSayWhereAShadowIsDarkBesideANarrowEdge) {
 }
 
 TEST(CoarseParts, AreThoseOfTheOwnSurface) {
-  const std::array<float, block_width> parts = {0.5F, 0.5F, 0.58F, 0.58F, 0.58F, 0.58F, 0.58F, 0.58F};
+  const std::array<float, width> parts = {0.5F, 0.5F, 0.58F, 0.58F, 0.58F, 0.58F, 0.58F, 0.58F};
   for (const ReceiverBlocks& receivers :
        {cells_of_a_plane(2, Vec3::UnitX()), cells_of_a_plane(2, Vec3::UnitZ(), 2.0F)}) {
     const Cells cells = filled(receivers, parts);
-    const Vec3 other = receivers.blocks[0].normal.at(lanes - 1);
-    const float depth = receivers.blocks[0].depth[lanes - 1];
+    const Vec3 other = receivers.blocks[0].at.normal.at(lanes - 1);
+    const float depth = receivers.blocks[0].at.depth[lanes - 1];
     EXPECT_FLOAT_EQ(found(cells, 6), 0.5F);
     EXPECT_FLOAT_EQ(found(cells, 6, depth, other), 0.58F);
     EXPECT_EQ(found(cells, 6, 5.0F), -1.0F);  // of neither
