@@ -53,35 +53,62 @@ struct Dots {
 struct Edge {
   float x, y, along_x, along_y, least;
 
-  Edge(const MapPoint& from, const MapPoint& to)
-      : x(from.x), y(from.y), along_x(to.x - from.x), along_y(to.y - from.y) {
-    // 1/512 of a texel further out than it is, so that rounding leaves no gap between neighbours.
-    least = (-1.0F / 512.0F) * (std::abs(along_x) + std::abs(along_y));
-  }
   LAGOMORPH_INLINE float at(float px, float py) const { return along_x * (py - y) - along_y * (px - x); }
 };
+LAGOMORPH_INLINE Edge edge(float x, float y, float to_x, float to_y) {
+  const float along_x = to_x - x, along_y = to_y - y;
+  // 1/512 of a texel further out than it is, so that rounding leaves no gap between neighbours.
+  return {x, y, along_x, along_y, (-1.0F / 512.0F) * (std::abs(along_x) + std::abs(along_y))};
+}
 
 /// Depths over the plane of a triangle.
 struct DepthPlane {
   float x, y, z, by_x, by_y, low, high;
 
-  DepthPlane(const MapPoint& a, const MapPoint& b, const MapPoint& c, float area)
-      : x(a.x),
-        y(a.y),
-        z(a.z),
-        by_x(((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) / area),
-        by_y(((c.z - a.z) * (b.x - a.x) - (b.z - a.z) * (c.x - a.x)) / area),
-        low(std::min({a.z, b.z, c.z})),
-        high(std::max({a.z, b.z, c.z})) {
-    low = std::clamp(low, 0.0F, static_cast<float>(no_depth - 1));
-    high = std::clamp(high, 0.0F, static_cast<float>(no_depth - 1));
-  }
   LAGOMORPH_INLINE std::uint16_t at(float px, float py) const {
     const float depth = z + by_x * (px - x) + by_y * (py - y);
     // NOLINTNEXTLINE(bugprone-incorrect-roundings): low >= 0, and lround would be a call a texel
     return static_cast<std::uint16_t>(static_cast<std::int32_t>(std::min(std::max(depth, low), high) + 0.5F));
   }
 };
+LAGOMORPH_INLINE DepthPlane depth_plane(const MapPoint& a, const MapPoint& b, const MapPoint& c, float area) {
+  constexpr auto deepest = static_cast<float>(no_depth - 1);
+  const auto within = [=](float depth) { return std::min(std::max(depth, 0.0F), deepest); };
+  return {a.x,
+          a.y,
+          a.z,
+          ((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) / area,
+          ((c.z - a.z) * (b.x - a.x) - (b.z - a.z) * (c.x - a.x)) / area,
+          within(std::min(std::min(a.z, b.z), c.z)),
+          within(std::max(std::max(a.z, b.z), c.z))};
+}
+
+/// Of texels whose middles may be inside: the first and the last along an axis that ends at `end`.
+LAGOMORPH_INLINE int first_texel(float low, int least) {
+  return std::max(static_cast<int>(std::ceil(std::max(low, -1.0F) - 0.5F)), least);
+}
+LAGOMORPH_INLINE int last_texel(float high, int end) {
+  return std::min(static_cast<int>(std::floor(std::min(high, static_cast<float>(end) + 1.0F) - 0.5F)),
+                  end - 1);
+}
+
+/// A triangle of positive area as it is drawn.
+struct TriangleSetup {
+  Edge of_a, of_b, of_c;
+  DepthPlane plane;
+  int x0, x1, y0, y1;  // texels
+};
+LAGOMORPH_INLINE TriangleSetup set_up(const MapPoint& a, const MapPoint& b, const MapPoint& c, float area,
+                                      const Band& band) {
+  return {edge(b.x, b.y, c.x, c.y),
+          edge(c.x, c.y, a.x, a.y),
+          edge(a.x, a.y, b.x, b.y),
+          depth_plane(a, b, c, area),
+          first_texel(std::min(std::min(a.x, b.x), c.x), 0),
+          last_texel(std::max(std::max(a.x, b.x), c.x), band.size),
+          first_texel(std::min(std::min(a.y, b.y), c.y), band.first),
+          last_texel(std::max(std::max(a.y, b.y), c.y), band.last)};
+}
 
 constexpr int small = 4;  // texels along a side of the square that all of is tried at once
 constexpr int texels_at_once = small * small;
@@ -101,27 +128,17 @@ constexpr TexelOffsets texel_offsets(int width) {
 }
 constexpr TexelOffsets in_a_square = texel_offsets(small), in_a_row = texel_offsets(texels_at_once);
 
-/// A triangle of positive area into a map of the band's rows.
+/// Into a map of the band's rows.
 template <bool dotted>
-LAGOMORPH_INLINE void put_triangle(const Dots& dots, const MapPoint& a, const MapPoint& b, const MapPoint& c,
-                                   float area, const Band& band, std::uint16_t* map) {
-  // Texels whose middles may be inside.
-  const auto first = [](float low, int least) {
-    return std::max(static_cast<int>(std::ceil(std::max(low, -1.0F) - 0.5F)), least);
-  };
-  const auto last = [](float high, int end) {
-    return std::min(static_cast<int>(std::floor(std::min(high, static_cast<float>(end) + 1.0F) - 0.5F)),
-                    end - 1);
-  };
-  const int y0 = first(std::min({a.y, b.y, c.y}), band.first);
-  const int y1 = last(std::max({a.y, b.y, c.y}), band.last);
-  const int x0 = first(std::min({a.x, b.x, c.x}), 0), x1 = last(std::max({a.x, b.x, c.x}), band.size);
+LAGOMORPH_INLINE void put_triangle(const Dots& dots, const TriangleSetup& t, const Band& band,
+                                   std::uint16_t* map) {
+  const int x0 = t.x0, x1 = t.x1, y0 = t.y0, y1 = t.y1;
   if (y0 > y1 || x0 > x1) return;
-  const Edge of_a(b, c), of_b(c, a), of_c(a, b);
-  const DepthPlane plane(a, b, c, area);
+  const DepthPlane& plane = t.plane;
   const auto inside = [&](float px, float py) {
-    return static_cast<int>(of_a.at(px, py) >= of_a.least) & static_cast<int>(of_b.at(px, py) >= of_b.least) &
-           static_cast<int>(of_c.at(px, py) >= of_c.least);
+    return static_cast<int>(t.of_a.at(px, py) >= t.of_a.least) &
+           static_cast<int>(t.of_b.at(px, py) >= t.of_b.least) &
+           static_cast<int>(t.of_c.at(px, py) >= t.of_c.least);
   };
   const auto row_of = [&](int y) {
     return map + static_cast<std::size_t>(y) * static_cast<std::size_t>(band.size);
@@ -168,16 +185,22 @@ LAGOMORPH_INLINE void put_triangle(const Dots& dots, const MapPoint& a, const Ma
 }
 
 /// The depth from the other side.
-MapPoint turned(const MapPoint& p) { return {p.x, p.y, static_cast<float>(no_depth) - p.z}; }
+LAGOMORPH_INLINE float turned(float z) { return static_cast<float>(no_depth) - z; }
+LAGOMORPH_INLINE MapPoint turned(const MapPoint& p) { return {p.x, p.y, turned(p.z)}; }
 
+/// Twice the area, positive where the front is seen.
+LAGOMORPH_INLINE float area_of(const MapPoint& a, const MapPoint& b, const MapPoint& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// Of meshes that both sides of are seen, or through.
 template <bool dotted>
-LAGOMORPH_INLINE void draw_triangles(const Caster& mesh, std::span<const MapPoint> points, const Band& band) {
+LAGOMORPH_INLINE void draw_sheets(const Caster& mesh, std::span<const MapPoint> points, const Band& band) {
   const Dots of_front(mesh, true), of_back(mesh, false);
-  const bool both_sides = dotted || !mesh.closed;
   for (const Triangle& t : mesh.triangles) {
     MapPoint a = points[t[0]], b = points[t[1]];
     const MapPoint c = points[t[2]];
-    float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    float area = area_of(a, b, c);
     if (!(area != 0.0F)) continue;
     const bool front = area > 0.0F;
     if (!front) {
@@ -185,14 +208,96 @@ LAGOMORPH_INLINE void draw_triangles(const Caster& mesh, std::span<const MapPoin
       area = -area;
     }
     const Dots& dots = front ? of_front : of_back;
-    if (front || both_sides) put_triangle<dotted>(dots, a, b, c, area, band, band.map);
-    if (band.from_below != nullptr && (!front || both_sides))
-      put_triangle<dotted>(dots, turned(a), turned(b), turned(c), area, band, band.from_below);
+    put_triangle<dotted>(dots, set_up(a, b, c, area, band), band, band.map);
+    if (band.from_below == nullptr) continue;
+    put_triangle<dotted>(dots, set_up(turned(a), turned(b), turned(c), area, band), band, band.from_below);
+  }
+}
+
+constexpr std::size_t triangles_at_once = 16;
+using TriangleLanes = std::array<float, triangles_at_once>;
+using TexelLanes = std::array<std::int32_t, triangles_at_once>;
+
+/// Points of triangles, one a lane.
+struct alignas(64) PointLanes {
+  TriangleLanes x, y, z;
+
+  LAGOMORPH_INLINE MapPoint at(std::size_t lane) const { return {x[lane], y[lane], z[lane]}; }
+  LAGOMORPH_INLINE void put(std::size_t lane, const MapPoint& p) {
+    x[lane] = p.x, y[lane] = p.y, z[lane] = p.z;
+  }
+};
+
+/// Triangles of a closed mesh, set up at once.
+struct alignas(64) SetupLanes {
+  struct Edges {
+    TriangleLanes x, y, along_x, along_y, least;
+    LAGOMORPH_INLINE void put(std::size_t lane, const Edge& e) {
+      x[lane] = e.x, y[lane] = e.y;
+      along_x[lane] = e.along_x, along_y[lane] = e.along_y, least[lane] = e.least;
+    }
+    LAGOMORPH_INLINE Edge at(std::size_t lane) const {
+      return {x[lane], y[lane], along_x[lane], along_y[lane], least[lane]};
+    }
+  };
+  Edges of_a, of_b, of_c;
+  TriangleLanes z, by_x, by_y, low, high;
+  TexelLanes x0, x1, y0, y1, front;  // front: 1, the back: 0, neither: -1
+
+  LAGOMORPH_INLINE TriangleSetup at(std::size_t l) const {
+    const Edge c = of_c.at(l);
+    return {of_a.at(l), of_b.at(l), c,     {c.x, c.y, z[l], by_x[l], by_y[l], low[l], high[l]},
+            x0[l],      x1[l],      y0[l], y1[l]};
+  }
+};
+
+LAGOMORPH_INLINE void set_up(const PointLanes& first, const PointLanes& second, const PointLanes& third,
+                             const Band& band, SetupLanes& to) {
+  for (std::size_t l = 0; l < triangles_at_once; ++l) {
+    const MapPoint p = first.at(l), q = second.at(l), r = third.at(l);
+    const float area = area_of(p, q, r);
+    const bool front = area > 0.0F;
+    const MapPoint a = {front ? p.x : q.x, front ? p.y : q.y, front ? p.z : turned(q.z)};
+    const MapPoint b = {front ? q.x : p.x, front ? q.y : p.y, front ? q.z : turned(p.z)};
+    const MapPoint c = {r.x, r.y, front ? r.z : turned(r.z)};
+    const TriangleSetup t = set_up(a, b, c, front ? area : -area, band);
+    to.of_a.put(l, t.of_a);
+    to.of_b.put(l, t.of_b);
+    to.of_c.put(l, t.of_c);
+    to.z[l] = t.plane.z, to.by_x[l] = t.plane.by_x, to.by_y[l] = t.plane.by_y;
+    to.low[l] = t.plane.low, to.high[l] = t.plane.high;
+    to.x0[l] = t.x0, to.x1[l] = t.x1, to.y0[l] = t.y0, to.y1[l] = t.y1;
+    to.front[l] = front ? 1 : (area < 0.0F ? 0 : -1);
+  }
+}
+
+/// Of closed meshes, the sides that are seen.
+LAGOMORPH_INLINE void draw_closed(const Caster& mesh, std::span<const MapPoint> points, const Band& band) {
+  const Dots none(mesh, true);
+  PointLanes a{}, b{}, c{};
+  SetupLanes set;
+  for (std::size_t first = 0; first < mesh.triangles.size(); first += triangles_at_once) {
+    const std::size_t count = std::min(triangles_at_once, mesh.triangles.size() - first);
+    for (std::size_t l = 0; l < count; ++l) {
+      const Triangle& t = mesh.triangles[first + l];
+      a.put(l, points[t[0]]), b.put(l, points[t[1]]), c.put(l, points[t[2]]);
+    }
+    set_up(a, b, c, band, set);
+    for (std::size_t l = 0; l < count; ++l) {
+      std::uint16_t* const map = set.front[l] > 0 ? band.map : band.from_below;
+      if (set.front[l] >= 0 && map != nullptr) put_triangle<false>(none, set.at(l), band, map);
+    }
   }
 }
 
 LAGOMORPH_RENDER_SIMD void draw_mesh(const Caster& mesh, std::span<const MapPoint> points, const Band& band) {
-  mesh.opacity < 1.0F ? draw_triangles<true>(mesh, points, band) : draw_triangles<false>(mesh, points, band);
+  if (mesh.opacity < 1.0F) {
+    draw_sheets<true>(mesh, points, band);
+  } else if (!mesh.closed) {
+    draw_sheets<false>(mesh, points, band);
+  } else {
+    draw_closed(mesh, points, band);
+  }
 }
 
 /// A mesh in front of a light: its triangles that are in front as a whole, and parts of the others.
