@@ -56,31 +56,14 @@ public:
 
   /// f_j = -Σ_p vol_jp B_jpᵀ vec(∂ψ/∂F); the part of node a of its negative is Σ_p vol_jp (∂ψ/∂F) D_a.
   void add_gradient(const VecX& q, double scale, VecX& g) const override {
-    if constexpr (kInLanes) {
-      thread_local std::vector<double> kept;  // so that a step allocates nothing
-      kept.resize(std::max(kept.size(), kVectorSize * TetLanes::kLanes * lanes_.group_count()));
-      std::vector<double>& vectors = kept;  // the calling thread's
-      for_each_group([&](std::size_t group) {
-        TetLanes::Deformation at;
-        lanes_.deform(group, q, at);
-        lanes_.set_vectors(group, at, derivatives(group, at),
-                           vectors.data() + kVectorSize * TetLanes::kLanes * group);
-      });
-      gather_.add_vectors(vectors, scale, g);
-      return;
-    }
-    std::vector<double> vectors(kVectorSize * elements_.size());
-    for_each_element([&](std::size_t j) {
-      Eigen::Map<Eigen::Matrix<double, 3, N>> g_j(vectors.data() + kVectorSize * j);
-      const Edges x = edges(j, q);
-      for (std::size_t p = 0; p < P; ++p) {
-        const auto& D = elements_[j].D[p];
-        g_j.template rightCols<N - 1>() +=
-            elements_[j].volumes[p] * materials_[j].dpsi_dF(x * D) * D.transpose();
+    gather_.add_vectors(scale, g, [&](int begin, int end, double* vectors) {
+      if constexpr (kInLanes) {
+        set_vectors(static_cast<std::size_t>(begin), static_cast<std::size_t>(end), q, vectors);
+      } else {
+        for (int j = begin; j < end; ++j, vectors += kVectorSize)
+          set_vector(static_cast<std::size_t>(j), q, vectors);
       }
-      g_j.col(0) = -g_j.template rightCols<N - 1>().rowwise().sum();
     });
-    gather_.add_vectors(vectors, scale, g);
   }
 
   /// K_j = Σ_p vol_jp B_jpᵀ (∂²ψ/∂F²) B_jp.
@@ -227,6 +210,28 @@ private:
   }
 
   /// Of elements [begin, end); `begin` begins a group, and there is room for the whole of the last.
+  void set_vectors(std::size_t begin, std::size_t end, const VecX& q, double* vectors) const {
+    for (std::size_t j = begin; j < end; j += TetLanes::kLanes, vectors += TetLanes::kLanes * kVectorSize) {
+      const std::size_t group = j / TetLanes::kLanes;
+      TetLanes::Deformation at;
+      lanes_.deform(group, q, at);
+      lanes_.set_vectors(group, at, derivatives(group, at), vectors);
+    }
+  }
+
+  void set_vector(std::size_t j, const VecX& q, double* vectors) const {
+    Eigen::Map<Eigen::Matrix<double, 3, N>> g_j(vectors);
+    g_j.setZero();
+    const Edges x = edges(j, q);
+    for (std::size_t p = 0; p < P; ++p) {
+      const auto& D = elements_[j].D[p];
+      g_j.template rightCols<N - 1>() +=
+          elements_[j].volumes[p] * materials_[j].dpsi_dF(x * D) * D.transpose();
+    }
+    g_j.col(0) = -g_j.template rightCols<N - 1>().rowwise().sum();
+  }
+
+  /// The same of matrices.
   void set_matrices(std::size_t begin, std::size_t end, const VecX& q, double* matrices) const {
     for (std::size_t j = begin; j < end; j += TetLanes::kLanes, matrices += TetLanes::kLanes * kMatrixSize) {
       const std::size_t group = j / TetLanes::kLanes;

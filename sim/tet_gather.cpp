@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kGrain = 512;
 constexpr std::size_t kBatchDoubles = 23040;  // of matrices: 256 linear tets, a part of a core's cache
+constexpr int kMostOfBatch = 512;             // elements, for few to keep the threads busy
 
 using Block8 = double __attribute__((vector_size(64), aligned(8), may_alias));
 
@@ -56,6 +57,22 @@ LAGOMORPH_SIMD void add_sums_of_blocks(int begin, int end, const int* starts, co
   }
 }
 
+/// Of the vectors that sum t has.
+inline __attribute__((always_inline)) Vec3 sum_of_vectors(int t, const int* starts, const int* sources,
+                                                          const double* from) {
+  Vec3 sum = Vec3::Zero();
+  for (int s = starts[t]; s < starts[t + 1]; ++s)
+    sum += Eigen::Map<const Vec3>(from + 3 * static_cast<std::ptrdiff_t>(sources[s]));
+  return sum;
+}
+
+/// Sums [begin, end).
+void sum_vectors(int begin, int end, const int* starts, const int* sources, const double* from,
+                 double* sums) {
+  for (int t = begin; t < end; ++t)
+    Eigen::Map<Vec3>(sums + 3 * static_cast<std::ptrdiff_t>(t)) = sum_of_vectors(t, starts, sources, from);
+}
+
 /// Turns "source s adds to target targets[s]" into the sources of each target, ascending.
 void invert(const std::vector<int>& targets, int target_count, std::vector<int>& starts,
             std::vector<int>& sources) {
@@ -70,70 +87,95 @@ void invert(const std::vector<int>& targets, int target_count, std::vector<int>&
 
 }  // namespace
 
+TetGather::Additions TetGather::additions(const std::vector<int>& targets, std::size_t an_element, int batch,
+                                          int target_count) {
+  Additions made;
+  made.batch = batch;
+  made.batch_starts.push_back(0);
+  std::vector<int> target_of_sum;
+  std::vector<std::pair<int, int>> of_batch;  // target, source within the batch
+  const std::size_t step = an_element * static_cast<std::size_t>(batch);
+  for (std::size_t first = 0; first < targets.size(); first += step) {
+    of_batch.clear();
+    for (std::size_t s = first; s < std::min(first + step, targets.size()); ++s)
+      of_batch.emplace_back(targets[s], static_cast<int>(s - first));
+    std::sort(of_batch.begin(), of_batch.end());
+    for (const auto& [target, source] : of_batch) {
+      if (static_cast<int>(target_of_sum.size()) == made.batch_starts.back() ||
+          target_of_sum.back() != target) {
+        target_of_sum.push_back(target);
+        made.source_starts.push_back(static_cast<int>(made.sources.size()));
+      }
+      made.sources.push_back(source);
+    }
+    made.batch_starts.push_back(static_cast<int>(target_of_sum.size()));
+  }
+  made.source_starts.push_back(static_cast<int>(made.sources.size()));
+  invert(target_of_sum, target_count, made.target_starts, made.target_sums);
+  return made;
+}
+
 TetGather::TetGather(const std::vector<int>& nodes, int nodes_per_element,
                      std::shared_ptr<const BlockPattern> pattern)
     : pattern_(std::move(pattern)),
+      vector_size_(vector_size(nodes_per_element)),
       matrix_size_(matrix_size(nodes_per_element)),
-      element_count_(static_cast<int>(nodes.size()) / nodes_per_element),
-      batch_(kGroup * std::max(static_cast<int>(kBatchDoubles / matrix_size_) / kGroup, 1)) {
-  invert(nodes, pattern_->vertex_count(), vertex_starts_, vertex_sources_);
+      element_count_(static_cast<int>(nodes.size()) / nodes_per_element) {
   const auto size = static_cast<std::size_t>(nodes_per_element);
-  batch_starts_.push_back(0);
-  std::vector<int> blocks;                     // of each sum
-  std::vector<std::pair<int, int>> additions;  // block, source within the batch
-  for (int first = 0; first < element_count_; first += batch_) {
-    additions.clear();
-    const auto last = static_cast<std::size_t>(std::min(first + batch_, element_count_));
-    for (std::size_t j = static_cast<std::size_t>(first); j < last; ++j) {
-      for (std::size_t b = 0; b < size; ++b)
-        for (std::size_t a = 0; a <= b; ++a)
-          additions.emplace_back(pattern_->find(nodes[size * j + a], nodes[size * j + b]),
-                                 static_cast<int>(additions.size()));
-    }
-    std::sort(additions.begin(), additions.end());
-    for (const auto& [block, source] : additions) {
-      if (static_cast<int>(blocks.size()) == batch_starts_.back() || blocks.back() != block) {
-        blocks.push_back(block);
-        source_starts_.push_back(static_cast<int>(sources_.size()));
-      }
-      sources_.push_back(source);
-    }
-    batch_starts_.push_back(static_cast<int>(blocks.size()));
+  const auto batch_of = [](std::size_t doubles) {
+    return kGroup * std::max(static_cast<int>(kBatchDoubles / doubles) / kGroup, 1);
+  };
+  vectors_ = additions(nodes, size, std::min(batch_of(vector_size_), kMostOfBatch), pattern_->vertex_count());
+  std::vector<int> blocks;
+  blocks.reserve(nodes.size() / size * matrix_size_ / 9);
+  for (std::size_t first = 0; first < nodes.size(); first += size) {
+    for (std::size_t b = 0; b < size; ++b)
+      for (std::size_t a = 0; a <= b; ++a)
+        blocks.push_back(pattern_->find(nodes[first + a], nodes[first + b]));
   }
-  source_starts_.push_back(static_cast<int>(sources_.size()));
-  invert(blocks, pattern_->block_count(), block_starts_, block_sums_);
+  matrices_ = additions(blocks, matrix_size_ / 9, batch_of(matrix_size_), pattern_->block_count());
 }
 
-void TetGather::add_vectors(const std::vector<double>& element_vectors, double scale, VecX& g) const {
-  parallel_for(pattern_->vertex_count(), kGrain, [&](int begin, int end) {
-    for (int v = begin; v < end; ++v) {
-      Vec3 sum = Vec3::Zero();
-      for (int s = vertex_starts_[v]; s < vertex_starts_[v + 1]; ++s)
-        sum += Eigen::Map<const Vec3>(element_vectors.data() +
-                                      3 * static_cast<std::ptrdiff_t>(vertex_sources_[s]));
-      g.segment<3>(3 * v) += scale * sum;
+void TetGather::fill_batches(const Additions& to, std::size_t doubles, const Fill& fill,
+                             const std::function<void(int batch, const double* of_elements)>& sum) const {
+  parallel_for(to.batch_count(), 1, [&](int begin, int end) {
+    thread_local std::vector<double> of_elements;  // kept, so that a step allocates nothing
+    of_elements.resize(std::max(of_elements.size(), doubles * static_cast<std::size_t>(to.batch)));
+    for (int batch = begin; batch < end; ++batch) {
+      fill(to.batch * batch, std::min(to.batch * (batch + 1), element_count_), of_elements.data());
+      sum(batch, of_elements.data());
     }
   });
 }
 
-void TetGather::add_matrices(double scale, BlockHessian& H,
-                             const std::function<void(int begin, int end, double* matrices)>& fill) const {
+void TetGather::add_vectors(double scale, VecX& g, const Fill& fill) const {
+  thread_local std::vector<double> kept;
+  kept.resize(std::max(kept.size(), 3 * vectors_.sum_count()));
+  std::vector<double>& sums = kept;  // the calling thread's
+  fill_batches(vectors_, vector_size_, fill, [&](int batch, const double* vectors) {
+    sum_vectors(vectors_.batch_starts[static_cast<std::size_t>(batch)],
+                vectors_.batch_starts[static_cast<std::size_t>(batch) + 1], vectors_.source_starts.data(),
+                vectors_.sources.data(), vectors, sums.data());
+  });
+  parallel_for(pattern_->vertex_count(), kGrain, [&](int begin, int end) {
+    for (int v = begin; v < end; ++v)
+      g.segment<3>(3 * v) +=
+          scale * sum_of_vectors(v, vectors_.target_starts.data(), vectors_.target_sums.data(), sums.data());
+  });
+}
+
+void TetGather::add_matrices(double scale, BlockHessian& H, const Fill& fill) const {
   assert(&H.pattern() == pattern_.get());
   std::vector<double>& sums = H.scratch();
-  sums.resize(std::max(sums.size(), 9 * static_cast<std::size_t>(batch_starts_.back())));
-  parallel_for(static_cast<int>(batch_starts_.size()) - 1, 1, [&](int begin, int end) {
-    thread_local std::vector<double> matrices;  // kept, so that a step allocates nothing
-    matrices.resize(std::max(matrices.size(), matrix_size_ * static_cast<std::size_t>(batch_)));
-    for (int batch = begin; batch < end; ++batch) {
-      fill(batch_ * batch, std::min(batch_ * (batch + 1), element_count_), matrices.data());
-      sum_blocks(batch_starts_[static_cast<std::size_t>(batch)],
-                 batch_starts_[static_cast<std::size_t>(batch) + 1], source_starts_.data(), sources_.data(),
-                 matrices.data(), sums.data());
-    }
+  sums.resize(std::max(sums.size(), 9 * matrices_.sum_count()));
+  fill_batches(matrices_, matrix_size_, fill, [&](int batch, const double* matrices) {
+    sum_blocks(matrices_.batch_starts[static_cast<std::size_t>(batch)],
+               matrices_.batch_starts[static_cast<std::size_t>(batch) + 1], matrices_.source_starts.data(),
+               matrices_.sources.data(), matrices, sums.data());
   });
   parallel_for(pattern_->block_count(), kGrain, [&](int begin, int end) {
-    add_sums_of_blocks(begin, end, block_starts_.data(), block_sums_.data(), sums.data(), scale,
-                       H.block(0).data());
+    add_sums_of_blocks(begin, end, matrices_.target_starts.data(), matrices_.target_sums.data(), sums.data(),
+                       scale, H.block(0).data());
   });
 }
 

@@ -28,24 +28,35 @@ public:
 
   /// `fill` is asked for whole groups of so many elements, counted from the first, but for the last group.
   static constexpr int kGroup = 8;
+  /// Makes those of elements [begin, end), on any thread, with room for whole groups.
+  using Fill = std::function<void(int begin, int end, double* of_elements)>;
 
-  /// g += scale · Σ_j E_jᵀ f_j.
-  void add_vectors(const std::vector<double>& element_vectors, double scale, VecX& g) const;
-  /// H += scale · Σ_j E_jᵀ K_j E_j. H must be on the same pattern. `fill(begin, end, matrices)` makes those
-  /// of elements [begin, end), on any thread, with room for whole groups. A batch's are summed while they are
-  /// still in the cache of the thread that made them, then these sums.
-  void add_matrices(double scale, BlockHessian& H,
-                    const std::function<void(int begin, int end, double* matrices)>& fill) const;
+  /// g += scale · Σ_j E_jᵀ f_j. A batch's are summed while they are still in the cache of the thread that
+  /// made them, then these sums.
+  void add_vectors(double scale, VecX& g, const Fill& fill) const;
+  /// H += scale · Σ_j E_jᵀ K_j E_j, likewise. H must be on the same pattern.
+  void add_matrices(double scale, BlockHessian& H, const Fill& fill) const;
 
 private:
+  /// What adds to each of some targets: of each batch of elements its sums, one for each target that its
+  /// elements add to; of each sum the sources in the batch, and of each target the sums.
+  struct Additions {
+    int batch = 0;  // elements
+    std::vector<int> batch_starts, source_starts, sources, target_starts, target_sums;
+
+    int batch_count() const { return static_cast<int>(batch_starts.size()) - 1; }
+    std::size_t sum_count() const { return static_cast<std::size_t>(batch_starts.back()); }
+  };
+  /// `targets`: those of each element, one element after the other.
+  static Additions additions(const std::vector<int>& targets, std::size_t an_element, int batch,
+                             int target_count);
+  void fill_batches(const Additions&, std::size_t doubles, const Fill& fill,
+                    const std::function<void(int batch, const double* of_elements)>& sum) const;
+
   std::shared_ptr<const BlockPattern> pattern_;
-  std::size_t matrix_size_;
-  int element_count_, batch_;  // elements a batch
-  // Of each vertex, the element vectors that add to it.
-  std::vector<int> vertex_starts_, vertex_sources_;
-  // Of each batch its sums, one for each block of the pattern that its elements add to; of each sum the
-  // matrices of the batch, and of each block the sums.
-  std::vector<int> batch_starts_, source_starts_, sources_, block_starts_, block_sums_;
+  std::size_t vector_size_, matrix_size_;
+  int element_count_;
+  Additions vectors_, matrices_;  // to vertices, to blocks
 };
 
 }  // namespace lagomorph::sim

@@ -7,6 +7,8 @@
 #include "sim/conjugate_gradient.h"
 #include "sim/linear_solver.h"
 #include "sim/materials/stable_neo_hookean.h"
+#include "sim/parallel.h"
+#include "sim/tet_lanes.h"
 #include "tests/bench/course_method.h"
 #include "tests/bench/scene.h"
 
@@ -16,15 +18,47 @@ namespace {
 
 const sim::Energy& elasticity(const Swing& s) { return *s.model.energies().front(); }
 
+/// Of what is read and written once each time, for comparison with triad(). [GB/s]
+void set_bandwidth(benchmark::State& timing, double bytes) {
+  timing.counters["GB/s"] = benchmark::Counter(1e-9 * bytes, benchmark::Counter::kIsIterationInvariantRate);
+}
+
+/// a = b + 3 c of arrays far larger than the caches, on all threads [McCalpin 1995, STREAM].
+void triad(benchmark::State& timing) {
+  constexpr int count = 1 << 24;
+  std::vector<double> a(count), b(count, 1.0), c(count, 2.0);
+  for (auto _ : timing) {
+    sim::parallel_for(count, 1 << 16, [&](int begin, int end) {
+      const double *const from_b = b.data(), *const from_c = c.data();
+      double* const to = a.data();
+      for (int i = begin; i < end; ++i) to[i] = from_b[i] + 3.0 * from_c[i];
+    });
+    benchmark::ClobberMemory();
+  }
+  set_bandwidth(timing, 3.0 * sizeof(double) * count);
+}
+BENCHMARK(triad)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// Of each tet its rule, and of each vertex its position.
+double bytes_read(const Swing& s) {
+  const auto tets = static_cast<double>(s.model.mesh().tets.size());
+  return tets * sizeof(sim::TetLanes::Group) / sim::TetLanes::kLanes +
+         sizeof(double) * static_cast<double>(s.state.q.size());
+}
+
 void value(benchmark::State& timing, const char* tets) {
   const Swing& s = swing(tets);
   for (auto _ : timing) benchmark::DoNotOptimize(elasticity(s).value(s.state.q));
+  set_bandwidth(timing, bytes_read(s));
 }
 
 void gradient(benchmark::State& timing, const char* tets) {
   const Swing& s = swing(tets);
   sim::VecX g = sim::VecX::Zero(s.state.q.size());
   for (auto _ : timing) elasticity(s).add_gradient(s.state.q, 1.0, g);
+  // Where each tet's vectors go, and the sums, read and written.
+  const double places = 4.0 * sizeof(int) * static_cast<double>(s.model.mesh().tets.size());
+  set_bandwidth(timing, bytes_read(s) + places + 2.0 * sizeof(double) * static_cast<double>(g.size()));
 }
 
 template <sim::HessianKind kind>
@@ -146,6 +180,8 @@ void add(const char* name, const char* tets,
 }
 
 const bool registered = [] {
+  add("value", "205k", value);
+  add("gradient", "205k", gradient);
   for (const char* const tets : {"5k", "25k", "5k_soft", "25k_soft"}) {
     add("value", tets, value);
     add("gradient", tets, gradient);

@@ -104,11 +104,14 @@ TEST(TetGather, AddsMatricesAsTripletsDo) {
 }
 
 TEST(TetGather, AddsVectorsAsALoopDoes) {
-  const TetMesh mesh = ascending_cube(3);
+  const TetMesh mesh = ascending_cube(6);  // of several batches
   const TetGather gather(nodes_of(mesh), 4, pattern_of(mesh));
   const std::vector<double> vectors = random_values(TetGather::vector_size(4) * mesh.tets.size());
   VecX g = VecX::Ones(3 * mesh.vertex_count()), expected = g;
-  gather.add_vectors(vectors, -0.5, g);
+  gather.add_vectors(-0.5, g, [&](int begin, int end, double* of_elements) {
+    const auto size = static_cast<std::ptrdiff_t>(TetGather::vector_size(4));
+    std::copy(vectors.begin() + size * begin, vectors.begin() + size * end, of_elements);
+  });
   for (std::size_t j = 0; j < mesh.tets.size(); ++j)
     for (std::size_t a = 0; a < 4; ++a)
       for (std::size_t k = 0; k < 3; ++k)
