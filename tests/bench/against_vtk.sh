@@ -25,7 +25,8 @@ ours() {
   awk -v one=$((last - first)) -v all=$(($(date +%s%N) - last)) 'BEGIN { printf "%.1f\n", (all - one) / 60e6 }'
 }
 theirs() {
-  xvfb-run -a -s '-screen 0 1280x720x24' /usr/bin/python3 "$root/tests/bench/vtk_frames.py" surfaces "vtk$1" "$1" 2>/dev/null
+  xvfb-run -a -s '-screen 0 1280x720x24' /usr/bin/python3 "$root/tests/bench/vtk_frames.py" surfaces "vtk$1" "$1" 2>vtk.log ||
+    { cat vtk.log >&2; fail "VTK could not draw"; }
 }
 printf '%8s %22s %25s\n' lagomorph 'VTK, no shadows' 'VTK, hard shadows'
 for _ in 1 2 3; do

@@ -83,8 +83,10 @@ window.AddRenderer(renderer)
 picture = vtk.vtkWindowToImageFilter()
 picture.SetInput(window)
 picture.ReadFrontBufferOff()
+picture.ShouldRerenderOff()  # the loop renders
 writer = vtk.vtkPNGWriter()
 writer.SetInputConnection(picture.GetOutputPort())
+writer.SetCompressionLevel(1)  # as ours
 out.mkdir(parents=True, exist_ok=True)
 start = 0.0
 for number, state in enumerate(states):
