@@ -35,8 +35,8 @@ struct Layout {
   Layout(const Tile& tile, std::size_t halo_pixels)
       : halo(halo_pixels),
         source_rows(static_cast<std::size_t>(tile.height) + 2 * halo),
-        row(whole_quads(static_cast<std::size_t>(tile.width))),
-        stride(whole_quads(row + 2 * halo)),
+        row(whole_blocks(static_cast<std::size_t>(tile.width))),
+        stride(whole_blocks(row + 2 * halo)),
         plane(source_rows * stride) {}
   std::size_t halo;
   std::size_t source_rows;

@@ -43,7 +43,7 @@ LAGOMORPH_INLINE void store(float* p, const Lanes<n>& value) {
 template <std::size_t n>
 inline constexpr std::size_t block = 2 * n;
 /// Rows are rounded up to the larger block.
-inline constexpr std::size_t whole_quads(std::size_t count) {
+inline constexpr std::size_t whole_blocks(std::size_t count) {
   constexpr std::size_t most = block<8>;
   return (count + most - 1) / most * most;
 }

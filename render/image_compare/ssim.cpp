@@ -153,8 +153,8 @@ bool read_tile(const View<Sample>& a, const View<Sample>& b, const Tile& tile, s
 
 Work place(const Tile& tile, std::vector<float>& scratch) {
   Work work{};
-  work.row = whole_quads(static_cast<std::size_t>(tile.width));
-  work.stride = whole_quads(work.row + 2 * radius);
+  work.row = whole_blocks(static_cast<std::size_t>(tile.width));
+  work.stride = whole_blocks(work.row + 2 * radius);
   const std::size_t plane = (static_cast<std::size_t>(tile.height) + 2 * radius) * work.stride;
   // Vertical windows reach to the planes' rows only; horizontal ones may read `radius` past a column's end.
   const std::size_t size = 2 * plane + 4 * (work.stride + radius) + 5 * work.row;
