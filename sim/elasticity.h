@@ -219,6 +219,16 @@ private:
     }
   }
 
+  /// The same of matrices.
+  void set_matrices(std::size_t begin, std::size_t end, const VecX& q, double* matrices) const {
+    for (std::size_t j = begin; j < end; j += TetLanes::kLanes, matrices += TetLanes::kLanes * kMatrixSize) {
+      const std::size_t group = j / TetLanes::kLanes;
+      TetLanes::Deformation at;
+      lanes_.deform(group, q, at);
+      lanes_.set_matrices(group, at, derivatives(group, at), matrices);
+    }
+  }
+
   void set_vector(std::size_t j, const VecX& q, double* vectors) const {
     Eigen::Map<Eigen::Matrix<double, 3, N>> g_j(vectors);
     g_j.setZero();
@@ -229,16 +239,6 @@ private:
           elements_[j].volumes[p] * materials_[j].dpsi_dF(x * D) * D.transpose();
     }
     g_j.col(0) = -g_j.template rightCols<N - 1>().rowwise().sum();
-  }
-
-  /// The same of matrices.
-  void set_matrices(std::size_t begin, std::size_t end, const VecX& q, double* matrices) const {
-    for (std::size_t j = begin; j < end; j += TetLanes::kLanes, matrices += TetLanes::kLanes * kMatrixSize) {
-      const std::size_t group = j / TetLanes::kLanes;
-      TetLanes::Deformation at;
-      lanes_.deform(group, q, at);
-      lanes_.set_matrices(group, at, derivatives(group, at), matrices);
-    }
   }
 
   void set_matrix(std::size_t j, const VecX& q, HessianKind kind, double* blocks) const {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kGrain = 512;
 constexpr std::size_t kBatchDoubles = 23040;  // of matrices: 256 linear tets, a part of a core's cache
-constexpr int kMostOfBatch = 512;             // elements, for few to keep the threads busy
+constexpr int kVectorBatch = 512;             // elements: few enough to keep the threads busy
 
 using Block8 = double __attribute__((vector_size(64), aligned(8), may_alias));
 
@@ -122,10 +122,8 @@ TetGather::TetGather(const std::vector<int>& nodes, int nodes_per_element,
       matrix_size_(matrix_size(nodes_per_element)),
       element_count_(static_cast<int>(nodes.size()) / nodes_per_element) {
   const auto size = static_cast<std::size_t>(nodes_per_element);
-  const auto batch_of = [](std::size_t doubles) {
-    return kGroup * std::max(static_cast<int>(kBatchDoubles / doubles) / kGroup, 1);
-  };
-  vectors_ = additions(nodes, size, std::min(batch_of(vector_size_), kMostOfBatch), pattern_->vertex_count());
+  vectors_ = additions(nodes, size, kVectorBatch, pattern_->vertex_count());
+  const int matrix_batch = kGroup * std::max(static_cast<int>(kBatchDoubles / matrix_size_) / kGroup, 1);
   std::vector<int> blocks;
   blocks.reserve(nodes.size() / size * matrix_size_ / 9);
   for (std::size_t first = 0; first < nodes.size(); first += size) {
@@ -133,7 +131,7 @@ TetGather::TetGather(const std::vector<int>& nodes, int nodes_per_element,
       for (std::size_t a = 0; a <= b; ++a)
         blocks.push_back(pattern_->find(nodes[first + a], nodes[first + b]));
   }
-  matrices_ = additions(blocks, matrix_size_ / 9, batch_of(matrix_size_), pattern_->block_count());
+  matrices_ = additions(blocks, matrix_size_ / 9, matrix_batch, pattern_->block_count());
 }
 
 void TetGather::fill_batches(const Additions& to, std::size_t doubles, const Fill& fill,

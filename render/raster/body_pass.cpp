@@ -31,7 +31,7 @@ void BodyPass::draw(const SceneShapes& shapes, Which which, const View& view, Ta
   glClearBufferfv(GL_COLOR, 0, no_color.data());
   draw_seen(shapes, which, view.behind_ground, targets);
   targets.bind_seen_textures();
-  const Program* plain = colors_ || view.behind_ground ? nullptr : &seen().plain;
+  const Program* plain = seen().plain && !view.behind_ground ? &*seen().plain : nullptr;
   draw_layers(shapes, view, {programs_->surface, seen().layer, plain, GL_ONE_MINUS_SRC_ALPHA, false},
               targets);
   if (features_.see_through) draw_see_through(shapes, view, targets);

@@ -66,7 +66,8 @@ public:
   bool is_open(int x, int y) const { return kinds_[index(x / step, y / step)] == Kind::open; }
   /// What pixel (x, y) from that of cell (0, 0) sees; returns false where its cells do not say it: they see
   /// too different parts, or other surfaces. `depth` and `normal()` are the pixel's own, `reach` the
-  /// difference in depth within which the surface goes on [m].
+  /// difference in depth within which the surface goes on [m]; the normal is not asked for where the cell's
+  /// corners are of one surface that is as deep as the pixel.
   template <class Normal>
   bool find(int x, int y, float depth, const Normal& normal, float reach, Parts& seen) const {
     const int cx = x / step, cy = y / step;
@@ -127,22 +128,22 @@ private:
 
   Kind kind(int x, int y, const Smoothness& smooth) const {
     const Parts& a = parts_[index(x, y)];
-    float most = 0.0F, most_of_lights = 0.0F, least_seen = 1.0F;
+    float most = 0.0F, most_of_dark = 0.0F, least_seen = 1.0F;
     for (const std::size_t other : {index(x, y), index(x + 1, y), index(x, y + 1), index(x + 1, y + 1)}) {
       const Parts& b = parts_[other];
-      float difference = 0.0F, of_lights = 0.0F;
+      float difference = 0.0F, of_dark = 0.0F;
       for (std::size_t k = 0; k < N; ++k) {
         const float of_part = std::abs(a[k] - b[k]);
         difference = std::max(difference, of_part);
-        if (smooth.dark_specks_show && std::min(a[k], b[k]) < dark) of_lights = std::max(of_lights, of_part);
+        if (smooth.dark_specks_show && std::min(a[k], b[k]) < dark) of_dark = std::max(of_dark, of_part);
         least_seen = std::min(least_seen, b[k]);
       }
       if (surfaces_[other].depth >= nowhere) continue;
       most = std::max(most, difference);
-      most_of_lights = std::max(most_of_lights, of_lights);
+      most_of_dark = std::max(most_of_dark, of_dark);
     }
     if (most > smooth.most_difference) return Kind::rough;
-    if (most_of_lights > slope) return Kind::sloped;
+    if (most_of_dark > slope) return Kind::sloped;
     return least_seen < 1.0F ? Kind::smooth : Kind::open;
   }
 

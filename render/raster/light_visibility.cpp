@@ -334,7 +334,9 @@ LAGOMORPH_INLINE void shadow_of(const DepthMaps& maps, Index part, const Receive
     spread_y[l] = std::max(t.half_y * nearer, t.least_y);
     const float pixels =
         std::min(spread_x[l], spread_y[l]) * search.distance[l] / (spacing * at.footprint[l]);
-    shadow.share[l] = std::min(std::max(0.5F * pixels - 0.5F, 0.0F), 1.0F);
+    // Of what is found alone; the others in the block see all, as they do in one where nothing is wanted.
+    const float most = wanted[l] != 0 ? 1.0F : 0.0F;
+    shadow.share[l] = std::min(std::max(0.5F * pixels - 0.5F, 0.0F), most);
   }
   Footprint pixel;
   alignas(64) std::array<int, lanes> covers{};

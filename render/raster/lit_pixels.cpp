@@ -72,7 +72,11 @@ struct OfLights {
   Smoothness smooth = {0.1F, true};
 
   BlockParts<count> find(const ReceiverBlocks& at) const {
-    BlockParts<count> parts(at.blocks.size());
+    Lanes all;
+    all.fill(1.0F);
+    std::array<Lanes, count> of_all;
+    of_all.fill(all);  // of lights that are not there, too
+    BlockParts<count> parts(at.blocks.size(), of_all);
     std::vector<Lanes> seen;
     for (std::size_t i = 0; i < to.maps.lights.size(); ++i) {
       soft_shadow(to.frame, to.maps, static_cast<int>(i), at, seen);
@@ -130,9 +134,8 @@ void for_receivers(const ReceiverBlocks& at, const BlockParts<N>& parts, const T
 
 /// By cells of step x step pixels where that will do, else pixel by pixel; sides of the part are whole quads
 /// of cells. receivers(x, y, step, first lane, r) are those of the quad at pixel (x, y) of the part;
-/// wanted(x, y) whether any is in the `side_wanted`
-/// pixels from there on; shared(x, y, cells, at_x, at_y, seen) what the cells,
-/// from whose own corner the pixel is at (at_x, at_y), say of it.
+/// wanted(x, y) whether any is in the `side_wanted` pixels from there on; shared(x, y, cells, at_x, at_y,
+/// seen) what the cells, from whose own corner the pixel is at (at_x, at_y), say of it.
 template <int step, class What, class QuadReceivers, class Wanted, class Shared>
 void light_part(const What& what, const PixelRectangle& part, const QuadReceivers& receivers,
                 const Wanted& wanted, const Shared& shared) {
@@ -203,6 +206,7 @@ public:
   const PixelRectangle& around() const { return around_; }
   /// Whether any of the tiles that a rectangle, from around()'s corner, touches is one.
   bool touch(int x, int y, int width, int height) const {
+    if (x + width <= 0 || y + height <= 0) return false;
     const int first = std::max(x, 0) / tile_size, last = std::min((x + width - 1) / tile_size, columns_ - 1);
     const int low = std::max(y, 0) / tile_size;
     const int high = std::min((y + height - 1) / tile_size, rows_ - 1);
@@ -234,8 +238,8 @@ PixelRectangle whole_cells(const PixelRectangle& r) {
 }
 
 PixelRectangle with_neighbours(const PixelRectangle& r) {
-  // Bands, and the cells beside them; to the sides those of all neighbours of a pixel's cells.
-  constexpr int beside = 4 * ground_step;
+  // Bands, and the cells beside them; to the sides those that decide how a pixel's neighbours are lit.
+  constexpr int beside = 8 * ground_step;
   const int x = down(r.x, beside) - beside, y = down(r.y, band_height) - beside;
   return {x, y, up(r.x + r.width, beside) + beside - x, up(r.y + r.height, band_height) + beside - y};
 }

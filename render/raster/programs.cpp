@@ -48,11 +48,13 @@ SeenPrograms::SeenPrograms(int multisample, bool colors, const LightFeatures& li
       layer("layer", {shaders::frame, shaders::layer_vertex},
             {light_features.definitions().c_str(), definitions(multisample, colors).c_str(), shaders::frame,
              shaders::brdf, shaders::sky, shaders::shade, shaders::ground_point, shaders::octahedron,
-             shaders::layers, shaders::layer_point, shaders::parts_seen, shaders::layer_fragment}),
-      plain("plain", {shaders::plain_vertex},
-            {light_features.definitions().c_str(), definitions(multisample, colors).c_str(), shaders::frame,
-             shaders::brdf, shaders::sky, shaders::shade, shaders::octahedron, shaders::parts_seen,
-             shaders::plain_fragment}) {}
+             shaders::layers, shaders::layer_point, shaders::parts_seen, shaders::layer_fragment}) {
+  if (colors) return;
+  plain.emplace("plain", Program::Parts{shaders::plain_vertex},
+                Program::Parts{light_features.definitions().c_str(), definitions(multisample, false).c_str(),
+                               shaders::frame, shaders::brdf, shaders::sky, shaders::shade,
+                               shaders::octahedron, shaders::parts_seen, shaders::plain_fragment});
+}
 
 PeelPrograms::PeelPrograms(int multisample, bool colors, const LightFeatures& light_features)
     : mesh("peeled mesh", {"#define PEEL\n", color_definition(colors), shaders::frame, shaders::mesh_vertex},

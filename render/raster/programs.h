@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "render/raster/gl_objects.h"
@@ -28,7 +29,8 @@ LightFeatures light_features(const RenderScene&, const RenderScene& drawn);
 struct SeenPrograms {
   SeenPrograms(int multisample, bool colors, const LightFeatures&);
 
-  Program mesh, light, layer, plain;
+  Program mesh, light, layer;
+  std::optional<Program> plain;  // of pixels that need no more; without colours
 };
 
 /// What draws the surfaces that are not opaque, the next one of each sample at a time, lights them, and lays

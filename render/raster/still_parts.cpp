@@ -18,8 +18,8 @@ namespace {
 constexpr int cell = 4;           // pixels between points at which the ground's map is looked up
 constexpr int most_pixels = 256;  // of a row at once
 
-/// The mean over half a texel to all sides counts the four pixels of a
-/// quad alike, wherever it is, so that nothing is left of their different points. All of it beyond the map.
+/// The mean over half a texel to all sides counts the four pixels of a quad alike, wherever it is, so that
+/// nothing is left of their different points. All of it beyond the map.
 Color seen_at(const GroundSeen& map, const Vec2& at) {
   if ((at.array() < 0.0F).any() || (at.array() > 1.0F).any()) return Color::Ones();
   struct Weights {

@@ -237,8 +237,9 @@ LayerPoint layer_point(Layers l, int layer) {
 
 // The first layer's surface, for the CPU to find what it sees of the lights and the sky: SurfaceTexel of
 // receivers.h. Point and plane are those of one sample, for the mean of two triangles' is on neither. The
-// number of the pixel's layers is its depth, so that the passes that light them skip all others. Where there
-// is one, as in most, and nothing but the texel is needed to light it, the depth is that of plain_vertex.
+// number of the pixel's layers is its depth, so that the passes that light them skip all others: 0.125 for
+// each, 0.05 for none; layer_vertex is before those that have its layer. Where there is one, as in most, and
+// nothing but the texel is needed to light it, the depth is 0.01: only there plain_vertex, at 0.03, is behind.
 const char* const surface_fragment = R"(
 uniform bool singles_are_plain;
 out uvec4 texel;
@@ -291,7 +292,7 @@ SkySeen parts_seen(ivec2 pixel, out vec4 lights_seen) {
 }
 )";
 
-// Before the depth of pixels of the next shader alone.
+// Behind the depth of plain pixels (surface_fragment) and before that of all others.
 const char* const plain_vertex = R"(
 void main() {
   vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -142,6 +143,28 @@ TEST(LightDepths, OfABallAreItsDistanceFromTheLight) {
     EXPECT_NEAR(distance_of(view, depth_at(view, maps[0], 512, met)), 2.0F - met.y(), 3e-3F) << x;
   }
   EXPECT_EQ(maps[0][0], no_depth);
+}
+
+/// Triangles are set up sixteen at once, of closed meshes only those that face the light.
+TEST(LightDepths, OfAClosedMeshAreThoseOfAllItsTriangles) {
+  const Mesh ball = sphere(Vec3(0.1F, 0.0F, -0.05F), 0.4F, 47);
+  ASSERT_EQ(ball.triangles.size() % 16, 8U);
+  const LightView view = fit_light_view(lamp(2.0F), std::vector<std::vector<Vec3>>{ball.positions}, 512);
+  for (const std::size_t left_out : {0, 1, 7, 15}) {
+    const std::span<const Triangle> triangles(ball.triangles.data(), ball.triangles.size() - left_out);
+    std::vector<DepthMap> closed, sheet;
+    draw_light_depths(std::vector{view}, std::vector<Caster>{{ball.positions, triangles, true, 1.0F, 0}},
+                      closed);
+    draw_light_depths(std::vector{view}, std::vector<Caster>{{ball.positions, triangles, false, 1.0F, 0}},
+                      sheet);
+    std::size_t unlike = 0, covered = 0;
+    for (std::size_t i = 0; i < sheet[0].size(); ++i) {
+      covered += sheet[0][i] != no_depth ? 1 : 0;
+      unlike += sheet[0][i] != closed[0][i] ? 1 : 0;
+    }
+    EXPECT_GT(covered, 20000U);
+    EXPECT_LT(unlike, 64U) << left_out;  // along the rim, where the back may be a texel wider
+  }
 }
 
 TEST(LightDepths, NeighboursLeaveNoGap) {

@@ -91,5 +91,25 @@ TEST(CoarseParts, AreThoseOfTheOwnSurface) {
   }
 }
 
+TEST(CoarseParts, DoNotAskForTheNormalWhereTheirCornersAreAlike) {
+  const std::array<float, width> parts = {0.5F, 0.58F, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F};
+  int asked = 0;
+  const auto normal = [&] {
+    ++asked;
+    return Vec3(Vec3::UnitX());
+  };
+  Cells::Parts seen;
+  const Cells plane = filled(cells_of_a_plane(), parts);
+  ASSERT_TRUE(plane.find(2, 1, 1.05F, normal, 0.1F, seen));
+  EXPECT_FLOAT_EQ(seen[0], 0.54F);
+  EXPECT_EQ(asked, 0);
+  EXPECT_FALSE(plane.find(2, 1, 1.2F, normal, 0.1F, seen));  // too deep for all four
+  EXPECT_EQ(asked, 1);
+  const Cells edge = filled(cells_of_a_plane(1, Vec3::UnitX()), parts);
+  ASSERT_TRUE(edge.find(2, 1, 1.0F, normal, 0.1F, seen));
+  EXPECT_FLOAT_EQ(seen[0], 0.58F);
+  EXPECT_EQ(asked, 2);
+}
+
 }  // namespace
 }  // namespace lagomorph::render::raster

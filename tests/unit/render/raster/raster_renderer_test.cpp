@@ -224,6 +224,50 @@ TEST(RasterRenderer, ABodyBeforeAnotherKeepsBothColoursAtItsEdge) {
   EXPECT_GT(mixed, 30);
 }
 
+/// Pixels of one surface are lit by a shader of their own; where vertices have colours there is none.
+TEST(RasterRenderer, PixelsOfOneSurfaceAreLitAsThoseOfMore) {
+  const RenderSettings settings = small_settings(192, 128);
+  RenderScene scene = lively_scene();
+  const Image plain = draw(scene, three_quarter(), settings);
+  for (Mesh& mesh : scene.meshes) mesh.colors.assign(mesh.positions.size(), mesh.material.base_color);
+  const Image layers = draw(scene, three_quarter(), settings);
+  const std::vector<float>&a = values(plain, "color"), &b = values(layers, "color");
+  ASSERT_EQ(a.size(), b.size());
+  // But for those at edges that samples cover in part: there the points are not the same.
+  std::size_t apart = 0;
+  for (std::size_t i = 0; i < a.size(); i += 3) {
+    float most = 0.0F;
+    for (std::size_t c = i; c < i + 3; ++c) most = std::max(most, std::abs(a[c] - b[c]));
+    EXPECT_LT(most, 0.03F);
+    apart += most > 1e-3F ? 1 : 0;
+  }
+  EXPECT_LT(apart, 80U);
+}
+
+/// Whatever cells and blocks a part of the picture has of its own; the lamp is seen as parts, and the edge of
+/// its shadow goes through the borders.
+TEST(RasterRenderer, ARegionIsTheWholePictures) {
+  const RenderSettings settings = small_settings(192, 128);
+  RenderScene scene = lively_scene();
+  scene.lights[0].position = Vec3(0.3F, 2.0F, 0.5F);
+  scene.lights[0].size = Vec2(1.5F, 1.5F);
+  scene.sky = {Color::Ones(), Color::Ones(), 0.3F};
+  const auto renderer = make_raster_renderer(settings, 2);
+  renderer->set_scene(scene);
+  const Camera camera(three_quarter(), settings.width, settings.height);
+  const Image whole = renderer->render(camera, {});
+  for (int k = 0; k < 24; ++k) {
+    const PixelRegion region{8 + 3 * k, 20 + 2 * k, 75 + 4 * k, 70 + 2 * k};
+    const Image part = renderer->render(camera, {.region = region});
+    int unlike = 0;
+    for (int y = region.y0; y < region.y1; ++y) {
+      for (int x = region.x0; x < region.x1; ++x)
+        unlike += (color_at(part, x, y) == color_at(whole, x, y)).all() ? 0 : 1;
+    }
+    EXPECT_EQ(unlike, 0) << k;
+  }
+}
+
 TEST(RasterRenderer, DrawsTheSameBytesEachTime) {
   const RenderSettings settings = small_settings();
   const Camera camera(three_quarter(), settings.width, settings.height);
