@@ -254,7 +254,9 @@ void light_ground(const FrameBlock& frame, const DepthMaps& maps, std::span<cons
   const Vec3 normal = ground_is_below(frame) ? Vec3::UnitY() : Vec3(-Vec3::UnitY());
   for_bands(lit.at, [&](const PixelRectangle& band) {
     const auto receivers = [&](int x, int y, int apart, int lane, Receivers& r) {
-      return tiles.touch(x, band.y + y, 2 * apart, 2 * apart) &&
+      // Cells beside the tiles, too, or those within would not know that all is seen there.
+      const int side = 2 * apart, beside = apart > 1 ? side : 0;
+      return tiles.touch(x - beside, band.y + y - beside, side + 2 * beside, side + 2 * beside) &&
              ground_receivers(frame, lit.at.x + x, lit.at.y + band.y + y, apart, lane, r);
     };
     const auto wanted = [&](int x, int y) { return tiles.touch(x, band.y + y, side_wanted, 2); };

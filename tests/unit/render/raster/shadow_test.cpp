@@ -133,6 +133,46 @@ TEST(RasterShadow, ASmallSunsEdgeHasNoStepsOfPixels) {
   EXPECT_LT(most, 0.1);  // 0.53 where a pixel is lit at its middle
 }
 
+/// However it lies to the tiles and cells of the ground: nothing but what cells may share, a tenth, is more
+/// than two pixels beside it.
+TEST(RasterShadow, ASmallSunsEdgeIsSharpWhereverItIs) {
+  constexpr float pixel = 0.005F, half = 0.3F;  // [m]
+  RenderScene scene = empty_scene();
+  scene.ground.enabled = true;
+  scene.suns.resize(1);
+  scene.suns[0].direction = Vec3(1.0F, -1.0F, 0.0F);  // past the square, which is out of the picture
+  scene.suns[0].angle = 0.1F;
+  CameraSettings camera = from_above();
+  camera.position.x() = 1.0F;
+  camera.look_at.x() = 1.0F;
+  RenderSettings settings = small_settings(256, 160);
+  settings.raster.shadow_map = 2048;
+  camera.orthographic = static_cast<float>(settings.height) * pixel;
+  const Image open = draw(scene, camera, settings);
+  for (int k = 0; k < 16; ++k) {
+    const float shift = 1.17F * pixel * static_cast<float>(k - 8);
+    scene.meshes = {rectangle(Vec3(shift, 1.0F, 0.7F * shift), half * Vec3::UnitZ(), half * Vec3::UnitX())};
+    const Image image = draw(scene, camera, settings);
+    int lit = 0, dark = 0, wrong = 0;
+    for (int y = 0; y < settings.height; ++y) {
+      for (int x = 0; x < settings.width; ++x) {
+        const float right =
+            pixel * (static_cast<float>(x) + 0.5F - 0.5F * static_cast<float>(settings.width));
+        const float down =
+            pixel * (static_cast<float>(y) + 0.5F - 0.5F * static_cast<float>(settings.height));
+        const float beyond = std::max(std::abs(right - shift), std::abs(down - 0.7F * shift)) - half;
+        if (std::abs(beyond) < 2.0F * pixel) continue;
+        const float seen = color_at(image, x, y)[0] / color_at(open, x, y)[0];
+        (beyond > 0.0F ? lit : dark) += 1;
+        wrong += std::abs(seen - (beyond > 0.0F ? 1.0F : 0.0F)) > 0.1F ? 1 : 0;
+      }
+    }
+    EXPECT_GT(lit, 10000);
+    EXPECT_GT(dark, 10000);
+    EXPECT_EQ(wrong, 0) << k;
+  }
+}
+
 TEST(RasterShadow, StandsAtTheFootOfABody) {
   RenderScene scene = square_over_ground(0.05F);
   scene.meshes = {box(Vec3(-0.5F, 0.0F, -0.5F), Vec3(0.5F, 1.0F, 0.5F))};
