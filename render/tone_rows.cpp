@@ -19,23 +19,29 @@ using ToneCodes = std::array<std::int32_t, tone_block>;
 
 int srgb_code(float linear) { return static_cast<int>(std::floor(255.0 * srgb_curve(linear) + 0.5)); }
 
-/// The exact curve to 8 bits without a power a pixel: the smallest float of every code, and the code at the
-/// start of every 256th of an octave from 2^-13 (code 0) to 1. A bucket holds one threshold at most.
+/// The exact curve to 8 bits without a power a pixel: the smallest float of every code, in buckets of a 256th
+/// of an octave from 2^-13 (code 0) to 1. A bucket holds one such threshold at most.
 class SrgbTable {
 public:
   SrgbTable() {
+    std::array<float, 257> threshold{};
     for (int k = 1; k <= 255; ++k) {
       auto x = static_cast<float>(inverse_srgb_curve((k - 0.5) / 255.0));
       while (srgb_code(x) >= k) x = std::nextafter(x, 0.0F);
       while (srgb_code(x) < k) x = std::nextafter(x, 1.0F);
-      threshold_[static_cast<std::size_t>(k)] = x;
+      threshold[static_cast<std::size_t>(k)] = x;
     }
-    threshold_[256] = 2.0F;
+    threshold[256] = 2.0F;
     for (int k = 0; k <= 255; ++k)
       whole_[static_cast<std::size_t>(k)] = static_cast<float>(inverse_srgb_curve(k / 255.0));
     whole_[256] = 2.0F;
-    for (std::int32_t i = 0; i < buckets; ++i)
-      start_[static_cast<std::size_t>(i)] = srgb_code(std::bit_cast<float>((i << shift) + lowest));
+    for (std::int32_t i = 0; i < buckets; ++i) {
+      const std::int32_t first = (i << shift) + lowest;
+      const std::int32_t code = srgb_code(std::bit_cast<float>(first)), next = code + 1;
+      const std::int32_t to_next =
+          std::bit_cast<std::int32_t>(threshold[static_cast<std::size_t>(next)]) - first;
+      buckets_[static_cast<std::size_t>(i)] = (code << shift) + std::max(inside - to_next, 0);
+    }
   }
 
   /// Of values that are not NaN.
@@ -45,9 +51,8 @@ public:
     for (std::size_t i = 0; i < tone_block; ++i) x[i] = std::min(std::max(linear[i], 0x1p-13F), 1.0F);
     std::memcpy(bits.data(), x.data(), sizeof(bits));  // for all at once, or nothing becomes vector code
     for (std::size_t i = 0; i < tone_block; ++i) {
-      const std::int32_t c = start_[static_cast<std::size_t>((bits[i] - lowest) >> shift)];
-      const std::int32_t next = c + 1;
-      codes[i] = c + (x[i] >= threshold_[static_cast<std::size_t>(next)] ? 1 : 0);
+      const std::int32_t at = bits[i] - lowest;
+      codes[i] = (buckets_[static_cast<std::size_t>(at >> shift)] + (at & (inside - 1))) >> shift;
     }
   }
 
@@ -66,13 +71,13 @@ public:
   }
 
 private:
-  static constexpr std::int32_t shift = 15;
+  static constexpr std::int32_t shift = 15, inside = 1 << shift;  // floats of a bucket
   static constexpr std::int32_t lowest = std::bit_cast<std::int32_t>(0x1p-13F);
   static constexpr std::int32_t buckets = ((std::bit_cast<std::int32_t>(1.0F) - lowest) >> shift) + 1;
-  // Of 32 bits each, which vector instructions gather.
-  std::array<float, 257> threshold_{};
   std::array<float, 257> whole_{};  // linear light of each code
-  std::array<std::int32_t, buckets> start_{};
+  /// Code of the first float, times 2^shift, and what is to be added for that to become the next one's at
+  /// the threshold: one look in place of two, which each take longer than all else.
+  std::array<std::int32_t, buckets> buckets_{};
 };
 
 struct Rgb {
