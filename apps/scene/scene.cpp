@@ -1,5 +1,6 @@
 #include "apps/scene/scene.h"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -29,10 +30,10 @@ std::string read_text(const fs::path& file) {
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   std::string text;
-  if (in) {
-    text.resize(static_cast<std::size_t>(most_bytes));
-    in.read(text.data(), most_bytes);
-    text.resize(static_cast<std::size_t>(in.gcount()));
+  std::array<char, 65536> part;
+  while (in && static_cast<std::streamsize>(text.size()) < most_bytes) {
+    in.read(part.data(), part.size());
+    text.append(part.data(), static_cast<std::size_t>(in.gcount()));
   }
   if (!in.is_open() || in.bad()) {
     wrong_input(fmt::format("{}: the scene cannot be read: {}", file.string(), std::strerror(errno)));
