@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -27,9 +28,9 @@ struct Pixels {
 };
 
 /// A picture that the program made.
-inline Pixels to_pixels(const Picture& picture) {
+inline Pixels to_pixels(Picture picture) {
   if (picture.alpha.empty())
-    return {.width = picture.width, .height = picture.height, .samples = picture.rgb};
+    return {.width = picture.width, .height = picture.height, .samples = std::move(picture.rgb)};
   std::vector<std::uint8_t> rgba;
   rgba.reserve(4 * picture.alpha.size());
   for (std::size_t i = 0; i < picture.alpha.size(); ++i) {

@@ -56,7 +56,7 @@ FrameWriter::FrameWriter(const RunPaths& paths, const Identity& identity, const 
   for (const std::string& file : channel_files(scene_.render)) make_folder(paths.channel(file));
 }
 
-void FrameWriter::write(const DrawnFrame& frame) const {
+std::optional<FrameWriter::Written> FrameWriter::write(const DrawnFrame& frame) const {
   const Stopwatch watch;
   const FrameJob& job = frame.of.job;
   const auto known = records_.find(job.frame);
@@ -64,13 +64,21 @@ void FrameWriter::write(const DrawnFrame& frame) const {
   record.frame = job.frame;
   if (frame.of.made) record.state = write_state(frame.of.state, *frame.of.made);
   if (record.picture && record.picture->of_state != record.state->sha256) record.picture.reset();
+  std::optional<Written> written;
   if (frame.image) {
-    record.picture = write_picture(frame, *record.state);
+    written.emplace();
+    {
+      const sim::Timed timed(sim::Stage::overlays);
+      written->picture = views_.finish(*frame.image, frame.of.state, *record.state);
+    }
+    record.picture = write_picture(frame, written->picture);
+    written->sha256 = record.picture->sha256;
     record.picture->of_state = record.state->sha256;
     record.picture->rendering_seconds = frame.seconds;
     record.picture->writing_seconds = watch.seconds();
   }
   if (frame.of.made || frame.image) write_record(paths_, record);
+  return written;
 }
 
 StateRecord FrameWriter::write_state(const sim::State& state, StateRecord record) const {
@@ -82,15 +90,13 @@ StateRecord FrameWriter::write_state(const sim::State& state, StateRecord record
   return record;
 }
 
-PictureRecord FrameWriter::write_picture(const DrawnFrame& drawn, const StateRecord& told) const {
+PictureRecord FrameWriter::write_picture(const DrawnFrame& drawn, const render::Picture& picture) const {
   const render::Image& image = *drawn.image;
   const int frame = drawn.of.job.frame;
   const auto timed = [](sim::Stage stage, auto&& work) {
     const sim::Timed timer(stage);
     return work();
   };
-  const auto picture =
-      timed(sim::Stage::overlays, [&] { return views_.finish(image, drawn.of.state, told); });
   const std::string png =
       timed(sim::Stage::encode, [&] { return render::encode_png(picture, scene_.render.png_compression); });
   PictureRecord record;

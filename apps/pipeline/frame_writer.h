@@ -1,6 +1,8 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <string>
 
 #include "apps/pipeline/frames.h"
 #include "apps/pipeline/views.h"
@@ -8,6 +10,7 @@
 #include "apps/run/paths.h"
 #include "apps/run/record.h"
 #include "apps/scene/scene_desc.h"
+#include "render/color.h"
 
 namespace lagomorph::apps {
 
@@ -19,11 +22,16 @@ public:
   FrameWriter(const RunPaths&, const Identity&, const SceneDesc&, const std::map<int, FrameRecord>& records,
               const Views&, bool draws);
 
-  void write(const DrawnFrame&) const;
+  /// Of a frame that was drawn, its picture and the SHA-256 of its file.
+  struct Written {
+    render::Picture picture;
+    std::string sha256;
+  };
+  std::optional<Written> write(const DrawnFrame&) const;
 
 private:
   StateRecord write_state(const sim::State&, StateRecord) const;
-  PictureRecord write_picture(const DrawnFrame&, const StateRecord&) const;
+  PictureRecord write_picture(const DrawnFrame&, const render::Picture&) const;
 
   const RunPaths& paths_;
   const Identity& identity_;

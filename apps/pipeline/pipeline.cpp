@@ -106,11 +106,12 @@ PipelineResult run_pipeline(const PipelineInput& in, Progress& progress) {
   for (int i = 0; i < std::clamp(in.threads - 1, 1, most_writers); ++i) {
     workers.start([&] {  // 3. and it is written, with its record, while the next ones are on their way.
       while (const std::optional<DrawnFrame> frame = next_of(to_write, sim::Stage::wait_to_write)) {
-        turns.take([&] { writer.write(*frame); });
+        std::optional<FrameWriter::Written> written = turns.take([&] { return writer.write(*frame); });
         frames_done += frame->of.job.draw && !frame->image ? 0 : 1;
         states_made += frame->of.made ? 1 : 0;
         pictures_made += frame->image ? 1 : 0;
-        if (frame->image && in.picture_written) in.picture_written(frame->of.job.frame);
+        if (written && in.picture_written)
+          in.picture_written(frame->of.job.frame, std::move(written->picture), written->sha256);
         progress.frame_done();
       }
     });

@@ -30,12 +30,13 @@ struct PipelineInput {
       renderer;  // with its scene set; made by the calling thread; nullptr when nothing is drawn
   const RunPaths& paths;
   const Identity& identity;
-  const std::map<int, FrameRecord>& records;            // of frames that are there
-  const std::vector<FrameJob>& jobs;                    // in order
-  int threads;                                          // stages at work at once, and writers
-  bool log_newton;                                      // into the records
-  std::string stage;                                    // see Progress::begin()
-  std::function<void(int frame)> picture_written = {};  // from any thread, when its record is there
+  const std::map<int, FrameRecord>& records;  // of frames that are there
+  const std::vector<FrameJob>& jobs;          // in order
+  int threads;                                // stages at work at once, and writers
+  bool log_newton;                            // into the records
+  std::string stage;                          // see Progress::begin()
+  /// From any thread, when the frame's record is there.
+  std::function<void(int frame, render::Picture, const std::string& sha256)> picture_written = {};
 };
 
 struct PipelineResult {

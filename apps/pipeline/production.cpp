@@ -232,8 +232,8 @@ std::optional<PipelineResult> make_frames(Production& p, RunInfo& info, Progress
       p.video = begin_video(p.paths, p.scene, p.contents.matching, jobs, p.frames, p.options.codec);
     return run_pipeline({p.scene, model, surfaces, views, *integrator, p.renderer.get(), p.paths, p.identity,
                          p.contents.matching, jobs, p.threads, p.options.log_newton, stage,
-                         [&](int frame) {
-                           if (p.video) p.video->picture_written(frame);
+                         [&](int frame, render::Picture picture, const std::string& sha256) {
+                           if (p.video) p.video->picture_written(frame, std::move(picture), sha256);
                          }},
                         progress);
   };

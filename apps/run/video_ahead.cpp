@@ -1,13 +1,36 @@
 #include "apps/run/video_ahead.h"
 
+#include <cstddef>
 #include <exception>
 #include <utility>
+#include <variant>
 
+#include "apps/error.h"
 #include "apps/file_io.h"
 #include "apps/hash.h"
 #include "apps/video/process.h"
+#include "render/pixels.h"
+#include "render/png_read.h"
 
 namespace lagomorph::apps {
+namespace {
+
+constexpr std::size_t most_ready = 8;  // pictures in memory; ffmpeg takes them about as they come
+
+bool is_shown(const VideoJob& job, int frame) {
+  return frame >= job.first && frame <= job.last && (frame - job.first) % job.every == 0;
+}
+
+/// Throws Error(machine) where the picture is not like the job's others.
+std::vector<std::uint8_t> samples_of(render::Pixels pixels, const VideoJob& job) {
+  auto* const samples = std::get_if<std::vector<std::uint8_t>>(&pixels.samples);
+  if (samples == nullptr || pixels.width != job.width || pixels.height != job.height ||
+      pixels.alpha != job.under.has_value())
+    throw Error(ExitStatus::machine, "pictures of a video differ in form");
+  return std::move(*samples);
+}
+
+}  // namespace
 
 VideoAhead::VideoAhead(VideoJob job, const RunPaths& paths, std::set<int> there)
     : job_(std::move(job)), paths_(paths), there_(std::move(there)), file_(temporary_name(job_.output)) {
@@ -31,19 +54,30 @@ VideoAhead::~VideoAhead() {
   remove_file(file_);
 }
 
-void VideoAhead::picture_written(int frame) {
+void VideoAhead::picture_written(int frame, render::Picture picture, const std::string& sha256) {
   {
     const std::lock_guard lock(mutex_);
     there_.insert(frame);
+    if (ready_.size() < most_ready && is_shown(job_, frame))
+      ready_[frame] = {samples_of(render::to_pixels(std::move(picture)), job_), sha256};
   }
   changed_.notify_all();
 }
 
-/// False: it will not be there.
-bool VideoAhead::wait_for(int frame) {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return gives_up_ || last_ || there_.contains(frame); });
-  return !gives_up_ && there_.contains(frame);
+/// None: it will not be there.
+std::optional<VideoAhead::Shown> VideoAhead::wait_for(int frame) {
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return gives_up_ || last_ || there_.contains(frame); });
+    if (gives_up_ || !there_.contains(frame)) return std::nullopt;
+    if (const auto ready = ready_.extract(frame)) return std::move(ready.mapped());
+  }
+  return read(frame);
+}
+
+VideoAhead::Shown VideoAhead::read(int frame) const {
+  const std::string png = read_file(paths_.picture(frame));
+  return {samples_of(render::read_png(png, paths_.picture(frame).string()), job_), sha256(png)};
 }
 
 void VideoAhead::encode() {
@@ -51,10 +85,10 @@ void VideoAhead::encode() {
   job.output = file_;
   FedProcess ffmpeg(fed_ffmpeg_command(job));
   for (int frame = job.first; frame <= job.last; frame += job.every) {
-    if (!wait_for(frame)) return;
-    const std::string png = read_file(paths_.picture(frame));
-    hashes_[frame] = sha256(png);
-    if (!ffmpeg.feed(png)) return;
+    const std::optional<Shown> shown = wait_for(frame);
+    if (!shown) return;
+    hashes_[frame] = shown->sha256;
+    if (!ffmpeg.feed({reinterpret_cast<const char*>(shown->pixels.data()), shown->pixels.size()})) return;
   }
   done_ = ffmpeg.finish();
 }

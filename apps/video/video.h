@@ -42,7 +42,8 @@ std::string rate_remark(const std::string& codec, double rate);
 /// pixels. The same pictures give the same bytes with the same ffmpeg.
 std::vector<std::string> ffmpeg_command(const VideoJob&);
 
-/// The same, for the pictures' bytes one after the other on its input.
+/// The same, for the pictures' pixels one after the other on its input: 8 bits each of red, green and blue,
+/// and of alpha where pictures have it (`under`).
 std::vector<std::string> fed_ffmpeg_command(const VideoJob&);
 
 /// Makes the video through ffmpeg and renames it into its place. Returns false when `stop` ended it. Throws
