@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "render/raster/receivers.h"
@@ -36,6 +37,7 @@ public:
     surfaces_.assign(count, {Vec3::UnitY(), nowhere});
     kinds_.assign(count, Kind::open);
     spreads_.assign(count, nowhere);
+    hard_.assign(count, 0);
     for (const ReceiverBlock& block : cells.blocks) {
       block.for_lanes([&](std::size_t lane, int x, int y) {
         if (block.at.there[lane] != 0)
@@ -46,8 +48,14 @@ public:
 
   Parts& at(int x, int y) { return parts_[index(x, y)]; }
 
-  /// When all is put: finds where it is not smooth.
-  void finish(const ReceiverBlocks& cells, const Smoothness& smooth) {
+  /// When all is put: finds where it is not smooth. `hard`, one a block: those beside which nothing is.
+  void finish(const ReceiverBlocks& cells, const Smoothness& smooth, std::span<const LaneBits> hard) {
+    for (std::size_t b = 0; b < cells.blocks.size(); ++b) {
+      if (hard[b] == 0) continue;
+      cells.blocks[b].for_lanes([&](std::size_t lane, int x, int y) {
+        if ((hard[b] >> lane & 1) != 0) hard_[index(x, y)] = 1;
+      });
+    }
     for (const ReceiverBlock& block : cells.blocks) {
       block.for_lanes([&](std::size_t, int x, int y) {
         if (x + 1 >= width_ || y + 1 >= height_) return;
@@ -138,6 +146,7 @@ private:
         if (smooth.dark_specks_show && std::min(a[k], b[k]) < dark) of_dark = std::max(of_dark, of_part);
         least_seen = std::min(least_seen, b[k]);
       }
+      if (hard_[other] != 0) return Kind::rough;
       if (surfaces_[other].depth >= nowhere) continue;
       most = std::max(most, difference);
       most_of_dark = std::max(most_of_dark, of_dark);
@@ -173,6 +182,7 @@ private:
   std::vector<Parts> parts_;
   std::vector<Surface> surfaces_;
   std::vector<Kind> kinds_;
+  std::vector<char> hard_;
   std::vector<float> spreads_;  // [m]
 };
 

@@ -65,6 +65,22 @@ const std::array<Vec2, most_taps>& pixel_points() {
   return points;
 }
 
+/// The same for every receiver, in place of what the pixels of a quad share: of cells each has its own ground
+/// around it, where nothing wider than a pixel is between them.
+constexpr int cell_taps = 16;
+const Lattice& cell_lattice() {
+  static const Lattice points = [] {
+    Lattice made(cell_taps);
+    for (int k = 0; k < cell_taps; ++k) {
+      const Vec2& p = pixel_points()[static_cast<Index>(k)];
+      made.rows[static_cast<Index>(k)].x.fill(p.x());
+      made.rows[static_cast<Index>(k)].y.fill(p.y());
+    }
+    return made;
+  }();
+  return points;
+}
+
 /// What a pixel covers in the light's view, as tangents: half its width and half its height.
 struct alignas(64) Footprint {
   Lanes width_x, width_y, height_x, height_y;
@@ -186,11 +202,11 @@ LAGOMORPH_INLINE const Slack& slack_of(const Receivers& at) {
 /// of them are above the horizon would show.
 constexpr float low_part = 0.15F;
 
-/// The rectangle that blockers are looked for in, and where there may be any.
+/// The rectangle that blockers are looked for in.
 struct alignas(64) Search {
   LightTaps taps;
   Lanes distance, reach_x, reach_y;
-  std::array<int, lanes> lit, inside;  // not behind the surface; within the map
+  std::array<int, lanes> lit, beyond;  // the light is not behind the surface; something may be before it
 };
 
 /// Half of it, as a tangent. What is nearer to the light than its width, as a floor that goes on beneath it,
@@ -220,6 +236,9 @@ LAGOMORPH_INLINE void cover_pixels(const LightTaps& t, const Receivers& at, floa
     }
   }
 }
+
+/// Narrower penumbras [receivers] are hard edges.
+constexpr float least_penumbra = 2.0F;
 
 /// Less beside a filter's reach is not worth the while.
 constexpr float least_cover = 0.25F;
@@ -278,13 +297,18 @@ LAGOMORPH_INLINE void look_from_light(const DepthMaps& maps, Index part, const R
     const float farther = std::max(light.depth[2] - t.reciprocal[l], 0.0F);
     search.reach_x[l] = std::min(half_x * farther, widest_search) + t.least_x;
     search.reach_y[l] = std::min(half_y * farther, widest_search) + t.least_y;
-    search.inside[l] =
-        static_cast<int>(qz > 0.0F) & static_cast<int>(t.reciprocal[l] < light.depth[2]) &
-        static_cast<int>((t.tangent_at_x[l] - search.reach_x[l]) * t.scale_x + t.offset_x < size) &
-        static_cast<int>((t.tangent_at_y[l] - search.reach_y[l]) * t.scale_y + t.offset_y < size) &
-        static_cast<int>((t.tangent_at_x[l] + search.reach_x[l]) * t.scale_x + t.offset_x > 0.0F) &
-        static_cast<int>((t.tangent_at_y[l] + search.reach_y[l]) * t.scale_y + t.offset_y > 0.0F);
+    search.beyond[l] = static_cast<int>(qz > 0.0F) & static_cast<int>(t.reciprocal[l] < light.depth[2]);
   }
+}
+
+/// Whether the rectangle that is searched meets the map.
+LAGOMORPH_INLINE bool is_inside(const Search& search, Index l) {
+  const LightTaps& t = search.taps;
+  const auto size = static_cast<float>(t.size);
+  return both(both((t.tangent_at_x[l] - search.reach_x[l]) * t.scale_x + t.offset_x < size,
+                   (t.tangent_at_y[l] - search.reach_y[l]) * t.scale_y + t.offset_y < size),
+              both((t.tangent_at_x[l] + search.reach_x[l]) * t.scale_x + t.offset_x > 0.0F,
+                   (t.tangent_at_y[l] + search.reach_y[l]) * t.scale_y + t.offset_y > 0.0F));
 }
 
 template <bool see_through>
@@ -292,26 +316,32 @@ LAGOMORPH_INLINE void blockers_of(const DepthMaps& maps, Index part, const Recei
                                   Blockers& found) {
   Search search;
   look_from_light<see_through>(maps, part, at, search);
+  const bool cells = at.is_ground && maps.parts[part].alone && spacing > 1.0F;
   if (at.is_ground && maps.parts[part].alone) {
     Footprint pixel;
     cover_pixels(search.taps, at, spacing, pixel);
     const LightTaps& t = search.taps;
     for (Index l = 0; l < all; ++l) {
-      search.reach_x[l] += covered(pixel.width_x[l], pixel.height_x[l], t.least_x, search.reach_x[l]);
-      search.reach_y[l] += covered(pixel.width_y[l], pixel.height_y[l], t.least_y, search.reach_y[l]);
+      if (cells) {
+        search.reach_x[l] += 2.0F * spacing * (std::abs(pixel.width_x[l]) + std::abs(pixel.height_x[l]));
+        search.reach_y[l] += 2.0F * spacing * (std::abs(pixel.width_y[l]) + std::abs(pixel.height_y[l]));
+      } else {
+        search.reach_x[l] += covered(pixel.width_x[l], pixel.height_x[l], t.least_x, search.reach_x[l]);
+        search.reach_y[l] += covered(pixel.width_y[l], pixel.height_y[l], t.least_y, search.reach_y[l]);
+      }
     }
   }
   alignas(64) std::array<int, lanes> wanted;
   for (Index l = 0; l < all; ++l) {
     found.depth[l] = search.lit[l] != 0 ? at.depth[l] : -1e9F;
-    wanted[l] = search.lit[l] & search.inside[l];
+    wanted[l] = search.lit[l] & search.beyond[l] & static_cast<int>(is_inside(search, l));
   }
   found.nearness.fill(0.0F);
   found.taps.fill(0.0F);
   if (!any(wanted)) return;
-  const int taps = maps.parts[part].search_taps;
-  add_taps<see_through, true>(search.taps, lattice(taps), taps, search.reach_x, search.reach_y,
-                              slack_of(at).search, wanted, found.nearness, found.taps);
+  const int taps = cells ? cell_taps : maps.parts[part].search_taps;
+  add_taps<see_through, true>(search.taps, cells ? cell_lattice() : lattice(taps), taps, search.reach_x,
+                              search.reach_y, slack_of(at).search, wanted, found.nearness, found.taps);
 }
 
 template <bool see_through>
@@ -319,6 +349,7 @@ LAGOMORPH_INLINE void shadow_of(const DepthMaps& maps, Index part, const Receive
                                 float spacing, Shadow& shadow) {
   shadow.blocked.fill(0.0F);
   shadow.share.fill(0.0F);
+  shadow.hard = 0;
   alignas(64) std::array<int, lanes> wanted;
   for (Index l = 0; l < all; ++l) wanted[l] = static_cast<int>(found.taps[l] > 0.0F);
   if (!any(wanted)) return;
@@ -339,7 +370,7 @@ LAGOMORPH_INLINE void shadow_of(const DepthMaps& maps, Index part, const Receive
     shadow.share[l] = std::min(std::max(0.5F * pixels - 0.5F, 0.0F), most);
   }
   Footprint pixel;
-  alignas(64) std::array<int, lanes> covers{};
+  alignas(64) std::array<int, lanes> covers{}, hard{};
   if (at.is_ground && maps.parts[part].alone) {
     cover_pixels(t, at, spacing, pixel);
     for (Index l = 0; l < all; ++l) {
@@ -349,6 +380,7 @@ LAGOMORPH_INLINE void shadow_of(const DepthMaps& maps, Index part, const Receive
       const float pixels =
           std::min(spread_x[l] / std::max(width, 1e-12F), spread_y[l] / std::max(height, 1e-12F));
       shadow.share[l] = std::min(shadow.share[l], std::max(0.5F * pixels / spacing - 0.25F, 0.0F));
+      hard[l] = wanted[l] & static_cast<int>(pixels < least_penumbra * spacing);
       covers[l] =
           static_cast<int>(covered(pixel.width_x[l], pixel.height_x[l], t.least_x, spread_x[l]) > 0.0F ||
                            covered(pixel.width_y[l], pixel.height_y[l], t.least_y, spread_y[l]) > 0.0F);
@@ -366,6 +398,7 @@ LAGOMORPH_INLINE void shadow_of(const DepthMaps& maps, Index part, const Receive
                                  total, blocked);
   }
   for (Index l = 0; l < all; ++l) shadow.blocked[l] = blocked[l] / std::max(total[l], 1e-12F);
+  for (Index l = 0; l < all; ++l) shadow.hard = static_cast<LaneBits>(shadow.hard | hard[l] << l);
 }
 
 /// See light_of_part(); `hides`: some of the part is below the ground.

@@ -60,9 +60,12 @@ struct Lighting {
   LitPixels& lit;
 };
 
-/// Of each block, N parts of its receivers.
+/// Of each block, N parts of its receivers, and which of these see edges that are hard (Shadow).
 template <std::size_t N>
-using BlockParts = std::vector<std::array<Lanes, N>>;
+struct BlockParts {
+  std::vector<std::array<Lanes, N>> seen;
+  std::vector<LaneBits> hard;
+};
 
 /// What is seen of each light.
 struct OfLights {
@@ -76,12 +79,14 @@ struct OfLights {
     all.fill(1.0F);
     std::array<Lanes, count> of_all;
     of_all.fill(all);  // of lights that are not there, too
-    BlockParts<count> parts(at.blocks.size(), of_all);
+    BlockParts<count> parts{std::vector<std::array<Lanes, count>>(at.blocks.size(), of_all),
+                            std::vector<LaneBits>(at.blocks.size())};
     std::vector<Lanes> seen;
     for (std::size_t i = 0; i < to.maps.lights.size(); ++i) {
-      soft_shadow(to.frame, to.maps, static_cast<int>(i), at, seen);
-      for (std::size_t b = 0; b < seen.size(); ++b) parts[b][i] = seen[b];
+      soft_shadow(to.frame, to.maps, static_cast<int>(i), at, seen, parts.hard);
+      for (std::size_t b = 0; b < seen.size(); ++b) parts.seen[b][i] = seen[b];
     }
+    if (smooth.most_difference >= 1.0F) std::fill(parts.hard.begin(), parts.hard.end(), LaneBits{0});
     return parts;
   }
   void put(const std::array<float, count>& seen, std::size_t pixel) const {
@@ -100,13 +105,14 @@ struct OfSky {
   Smoothness smooth = {0.1F, false};
 
   BlockParts<count> find(const ReceiverBlocks& at) const {
-    BlockParts<count> parts(at.blocks.size());
+    BlockParts<count> parts{std::vector<std::array<Lanes, count>>(at.blocks.size()),
+                            std::vector<LaneBits>(at.blocks.size())};
     SkySeen seen;
     for (std::size_t b = 0; b < at.blocks.size(); ++b) {
       const Receivers& r = at.blocks[b].at;
       lit == SkyLit::softly ? sky_seen_softly(to.frame, to.maps, r, seen)
                             : sky_seen(to.frame, to.maps, r, seen);
-      std::array<Lanes, count>& of = parts[b];
+      std::array<Lanes, count>& of = parts.seen[b];
       of[0] = seen.diffuse.x, of[1] = seen.diffuse.y, of[2] = seen.diffuse.z, of[3] = seen.below;
       if constexpr (lit == SkyLit::mirrored_too)
         of[4] = seen.mirrored.x, of[5] = seen.mirrored.y, of[6] = seen.mirrored.z;
@@ -126,7 +132,7 @@ void for_receivers(const ReceiverBlocks& at, const BlockParts<N>& parts, const T
   for (std::size_t b = 0; b < at.blocks.size(); ++b) {
     at.blocks[b].for_lanes([&](std::size_t lane, int x, int y) {
       std::array<float, N> seen;
-      for (std::size_t k = 0; k < N; ++k) seen[k] = parts[b][k][lane];
+      for (std::size_t k = 0; k < N; ++k) seen[k] = parts.seen[b][k][lane];
       to(x, y, seen);
     });
   }
@@ -150,9 +156,10 @@ void light_part(const What& what, const PixelRectangle& part, const QuadReceiver
     }
   }
   CoarseParts<count, step> parts(cells);
-  for_receivers<count>(cells, what.find(cells),
+  const BlockParts<count> found_of_cells = what.find(cells);
+  for_receivers<count>(cells, found_of_cells,
                        [&](int x, int y, const std::array<float, count>& seen) { parts.at(x, y) = seen; });
-  parts.finish(cells, what.smooth);
+  parts.finish(cells, what.smooth, found_of_cells.hard);
   const auto pixel = [&](int x, int y) { return pixel_of(what.to.lit.at, part.x + x, part.y + y); };
   ReceiverBlocks alone{part.width, part.height, 1, {}};
   std::array<float, count> seen;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "render/render_scene.h"
 #include "render/simd.h"
@@ -14,6 +15,7 @@ namespace lagomorph::render::raster {
 constexpr int quad = 4, quads = 4;  // pixel (x, y) of quad q in lane 4 q + 2 y + x
 constexpr int lanes = quad * quads;
 using Lanes = std::array<float, lanes>;
+using LaneBits = std::uint16_t;  // 1 << lane
 struct alignas(64) Lanes3 {
   Lanes x, y, z;
   Vec3 at(int lane) const {

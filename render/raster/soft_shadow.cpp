@@ -159,8 +159,8 @@ public:
     }
   }
 
-  /// Returns false, with nothing found, where all of it is seen by all.
-  bool find(const DepthMaps& maps, std::size_t part) {
+  /// Returns false, with nothing found, where all of it is seen by all. See soft_shadow() for `hard`.
+  bool find(const DepthMaps& maps, std::size_t part, std::span<LaneBits> hard) {
     if (!search(maps, part)) return false;
     share(nearness_, taps_);
     Plane& blocked = nearness_;  // their room
@@ -175,6 +175,7 @@ public:
       shared_nearness_.get(block, found.nearness);
       Shadow shadow;
       filter_shadow(maps, part, block.at, found, spacing, shadow);
+      hard[b] |= shadow.hard;
       blocked.put(block, shadow.blocked);
       shared.put(block, shadow.share);
     }
@@ -250,7 +251,7 @@ void put_together(const FrameBlock& frame, const DepthMaps& maps, const LightPar
 }  // namespace
 
 void soft_shadow(const FrameBlock& frame, const DepthMaps& maps, int light, const ReceiverBlocks& at,
-                 std::vector<Lanes>& seen) {
+                 std::vector<Lanes>& seen, std::span<LaneBits> hard) {
   const LightParts& parts = maps.lights[static_cast<std::size_t>(light)];
   Lanes all;
   all.fill(1.0F);
@@ -258,14 +259,14 @@ void soft_shadow(const FrameBlock& frame, const DepthMaps& maps, int light, cons
   if (at.empty()) return;
   PartShadow shadow(at);
   if (parts.count == 1 && !parts.below_ground) {
-    if (!shadow.find(maps, parts.first)) return;
+    if (!shadow.find(maps, parts.first, hard)) return;
     for (std::size_t b = 0; b < at.blocks.size(); ++b) shadow.get(b, seen[b]);
     return;
   }
   std::vector<Lanes> parts_seen;  // where they are not seen whole
   std::vector<std::int32_t> of_parts(at.blocks.size() * parts.count, all_seen);
   for (std::size_t k = 0; k < parts.count; ++k) {
-    if (!shadow.find(maps, parts.first + k)) continue;
+    if (!shadow.find(maps, parts.first + k, hard)) continue;
     for (std::size_t b = 0; b < at.blocks.size(); ++b) {
       Lanes of_part;
       if (!shadow.get(b, of_part)) continue;

@@ -37,7 +37,7 @@ Cells filled(const ReceiverBlocks& receivers, const std::array<float, width>& pa
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) cells.at(x, y)[0] = parts[static_cast<std::size_t>(x)];
   }
-  cells.finish(receivers, {0.1F, true});
+  cells.finish(receivers, {0.1F, true}, std::vector<LaneBits>(receivers.blocks.size()));
   return cells;
 }
 
@@ -69,6 +69,17 @@ TEST(CoarseParts, DoNotSayWhatANarrowEdgeHides) {
   EXPECT_EQ(found(cells, step), 1.0F);
   for (int x = 2 * step; x < 3 * step; ++x) EXPECT_EQ(found(cells, x), -1.0F);
   EXPECT_EQ(found(cells, 3 * step), 0.0F);
+}
+
+TEST(CoarseParts, DoNotSayWhatIsBesideAHardEdge) {
+  const ReceiverBlocks receivers = cells_of_a_plane();
+  Cells cells(receivers);  // all is seen
+  // The lower right receiver of the first quad, in column 1.
+  std::vector<LaneBits> hard(receivers.blocks.size());
+  hard[0] = 1U << 1U;
+  cells.finish(receivers, {0.1F, true}, hard);
+  for (int x = 0; x < 2 * step; ++x) EXPECT_EQ(found(cells, x), -1.0F) << x;
+  EXPECT_EQ(found(cells, 2 * step), 1.0F);
 }
 
 TEST(CoarseParts, DoNotSayWhereAShadowIsDarkBesideANarrowEdge) {

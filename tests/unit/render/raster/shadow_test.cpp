@@ -133,43 +133,83 @@ TEST(RasterShadow, ASmallSunsEdgeHasNoStepsOfPixels) {
   EXPECT_LT(most, 0.1);  // 0.53 where a pixel is lit at its middle
 }
 
-/// However it lies to the tiles and cells of the ground: nothing but what cells may share, a tenth, is more
-/// than two pixels beside it.
-TEST(RasterShadow, ASmallSunsEdgeIsSharpWhereverItIs) {
-  constexpr float pixel = 0.005F, half = 0.3F;  // [m]
+constexpr float ground_pixel = 0.005F;  // [m]
+/// A small sun's shadow 1 m beside what throws it at a height of 1 m, which is out of the picture.
+RenderScene under_a_small_sun() {
   RenderScene scene = empty_scene();
   scene.ground.enabled = true;
   scene.suns.resize(1);
-  scene.suns[0].direction = Vec3(1.0F, -1.0F, 0.0F);  // past the square, which is out of the picture
+  scene.suns[0].direction = Vec3(1.0F, -1.0F, 0.0F);
   scene.suns[0].angle = 0.1F;
+  return scene;
+}
+Image of_ground_below(const RenderScene& scene) {
+  RenderSettings settings = small_settings(256, 160);
+  settings.raster.shadow_map = 2048;
   CameraSettings camera = from_above();
   camera.position.x() = 1.0F;
   camera.look_at.x() = 1.0F;
-  RenderSettings settings = small_settings(256, 160);
-  settings.raster.shadow_map = 2048;
-  camera.orthographic = static_cast<float>(settings.height) * pixel;
-  const Image open = draw(scene, camera, settings);
+  camera.orthographic = static_cast<float>(settings.height) * ground_pixel;
+  return draw(scene, camera, settings);
+}
+/// Of that picture's pixel, from the middle [m].
+float right_of_middle(const Image& image, int x) {
+  return ground_pixel * (static_cast<float>(x) + 0.5F - 0.5F * static_cast<float>(image.width()));
+}
+float below_middle(const Image& image, int y) {
+  return ground_pixel * (static_cast<float>(y) + 0.5F - 0.5F * static_cast<float>(image.height()));
+}
+
+/// However it lies to the tiles and cells of the ground: nothing of it is more than two pixels beside it.
+TEST(RasterShadow, ASmallSunsEdgeIsSharpWhereverItIs) {
+  constexpr float half = 0.3F;  // [m]
+  RenderScene scene = under_a_small_sun();
+  const Image open = of_ground_below(scene);
   for (int k = 0; k < 16; ++k) {
-    const float shift = 1.17F * pixel * static_cast<float>(k - 8);
+    const float shift = 1.17F * ground_pixel * static_cast<float>(k - 8);
     scene.meshes = {rectangle(Vec3(shift, 1.0F, 0.7F * shift), half * Vec3::UnitZ(), half * Vec3::UnitX())};
-    const Image image = draw(scene, camera, settings);
+    const Image image = of_ground_below(scene);
     int lit = 0, dark = 0, wrong = 0;
-    for (int y = 0; y < settings.height; ++y) {
-      for (int x = 0; x < settings.width; ++x) {
-        const float right =
-            pixel * (static_cast<float>(x) + 0.5F - 0.5F * static_cast<float>(settings.width));
-        const float down =
-            pixel * (static_cast<float>(y) + 0.5F - 0.5F * static_cast<float>(settings.height));
-        const float beyond = std::max(std::abs(right - shift), std::abs(down - 0.7F * shift)) - half;
-        if (std::abs(beyond) < 2.0F * pixel) continue;
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        const float beyond = std::max(std::abs(right_of_middle(image, x) - shift),
+                                      std::abs(below_middle(image, y) - 0.7F * shift)) -
+                             half;
+        if (std::abs(beyond) < 2.0F * ground_pixel) continue;
         const float seen = color_at(image, x, y)[0] / color_at(open, x, y)[0];
         (beyond > 0.0F ? lit : dark) += 1;
-        wrong += std::abs(seen - (beyond > 0.0F ? 1.0F : 0.0F)) > 0.1F ? 1 : 0;
+        wrong += std::abs(seen - (beyond > 0.0F ? 1.0F : 0.0F)) > 0.02F ? 1 : 0;
       }
     }
     EXPECT_GT(lit, 10000);
     EXPECT_GT(dark, 10000);
     EXPECT_EQ(wrong, 0) << k;
+  }
+}
+
+/// Of a rod that is narrower than cells are, and so is what falls between them.
+TEST(RasterShadow, AThinShadowHasNoGaps) {
+  constexpr float half_length = 0.3F, half_width = 0.7F * ground_pixel;
+  RenderScene scene = under_a_small_sun();
+  const Image open = of_ground_below(scene);
+  for (const float slope : {0.0F, 0.05F, 0.3F}) {
+    for (int k = 0; k < 6; ++k) {
+      const float shift = 0.83F * ground_pixel * static_cast<float>(k - 3);
+      scene.meshes = {rectangle(Vec3(0.0F, 1.0F, shift), half_width * Vec3::UnitZ(),
+                                half_length * Vec3(1.0F, 0.0F, slope))};
+      const Image image = of_ground_below(scene);
+      double least = 1e9, most = 0.0;
+      for (int x = 0; x < image.width(); ++x) {
+        if (std::abs(right_of_middle(image, x)) > half_length - 3.0F * ground_pixel) continue;
+        double hidden = 0.0;  // of the column [pixels]
+        for (int y = 0; y < image.height(); ++y)
+          hidden += 1.0 - static_cast<double>(color_at(image, x, y)[0] / color_at(open, x, y)[0]);
+        least = std::min(least, hidden);
+        most = std::max(most, hidden);
+      }
+      EXPECT_GT(least, 1.0) << slope << " " << k;
+      EXPECT_LT(most, 1.8) << slope << " " << k;
+    }
   }
 }
 

@@ -72,7 +72,8 @@ ReceiverBlocks on_a_plane(const std::vector<QuadPlace>& places, bool is_ground) 
 std::vector<float> seen_by(const Lamp& lamp, const std::vector<QuadPlace>& places, bool is_ground) {
   const ReceiverBlocks at = on_a_plane(places, is_ground);
   std::vector<Lanes> seen;
-  soft_shadow(lamp.frame, lamp.maps, 0, at, seen);
+  std::vector<LaneBits> hard(at.blocks.size());
+  soft_shadow(lamp.frame, lamp.maps, 0, at, seen, hard);
   std::vector<float> by_place(static_cast<std::size_t>(side) * side);
   for (std::size_t b = 0; b < at.blocks.size(); ++b) {
     at.blocks[b].for_lanes([&](std::size_t lane, int x, int y) {
