@@ -65,22 +65,6 @@ const std::array<Vec2, most_taps>& pixel_points() {
   return points;
 }
 
-/// The same for every receiver, in place of what the pixels of a quad share: of cells each has its own ground
-/// around it, where nothing wider than a pixel is between them.
-constexpr int cell_taps = 16;
-const Lattice& cell_lattice() {
-  static const Lattice points = [] {
-    Lattice made(cell_taps);
-    for (int k = 0; k < cell_taps; ++k) {
-      const Vec2& p = pixel_points()[static_cast<Index>(k)];
-      made.rows[static_cast<Index>(k)].x.fill(p.x());
-      made.rows[static_cast<Index>(k)].y.fill(p.y());
-    }
-    return made;
-  }();
-  return points;
-}
-
 /// What a pixel covers in the light's view, as tangents: half its width and half its height.
 struct alignas(64) Footprint {
   Lanes width_x, width_y, height_x, height_y;
@@ -186,6 +170,9 @@ LAGOMORPH_INLINE void add_taps(const LightTaps& t, const Lattice& points, int ta
   }
 }
 
+/// Difference in depth between neighbours of one surface [footprints].
+constexpr float one_surface = 10.0F;
+
 /// Of the light's size, see add_taps().
 struct Slack {
   float search, filter;
@@ -220,13 +207,19 @@ constexpr float least_reach = see_through ? 4.0F : 1.0F;
 template <bool see_through>
 constexpr float least_reach_of_edges = see_through ? 4.0F : 1.5F;
 
-/// Of the ground, by the differences in each quad of receivers `spacing` pixels apart.
-LAGOMORPH_INLINE void cover_pixels(const LightTaps& t, const Receivers& at, float spacing, Footprint& pixel) {
-  const float half = 0.5F / spacing;
+/// Half of `pixels` pixels, by the differences in each quad of receivers `spacing` apart on one surface.
+LAGOMORPH_INLINE void cover_pixels(const LightTaps& t, const Receivers& at, float spacing, float pixels,
+                                   Footprint& pixel) {
+  const float half = 0.5F * pixels / spacing;
   for (Index q = 0; q < all; q += quad) {
-    const bool whole =
-        both(both(at.there[q] != 0, at.there[q + 1] != 0), both(at.there[q + 2] != 0, at.there[q + 3] != 0));
-    const float scale = whole ? half : 0.0F;
+    float low = at.depth[q], high = at.depth[q];
+    bool whole = at.there[q] != 0;
+    for (Index l = q + 1; l < q + quad; ++l) {
+      whole = both(whole, at.there[l] != 0);
+      low = std::min(low, at.depth[l]);
+      high = std::max(high, at.depth[l]);
+    }
+    const float scale = both(whole, high - low < one_surface * spacing * at.footprint[q]) ? half : 0.0F;
     for (Index l = q; l < q + quad; ++l) {
       const Index left = l & ~Index{1}, lower = l & ~Index{2};
       pixel.width_x[l] = scale * (t.tangent_at_x[left + 1] - t.tangent_at_x[left]);
@@ -243,10 +236,27 @@ constexpr float least_penumbra = 2.0F;
 /// Less beside a filter's reach is not worth the while.
 constexpr float least_cover = 0.25F;
 
-/// Half of what the pixel covers along the axes, within some texels, where it is worth the while; else 0.
-LAGOMORPH_INLINE float covered(float width, float height, float least, float reach) {
-  const float half = std::min(std::abs(width) + std::abs(height), 64.0F * least);
-  return half > least_cover * reach ? half : 0.0F;
+/// Along the axes, half of it.
+LAGOMORPH_INLINE float covered_x(const Footprint& p, Index l) {
+  return std::abs(p.width_x[l]) + std::abs(p.height_x[l]);
+}
+LAGOMORPH_INLINE float covered_y(const Footprint& p, Index l) {
+  return std::abs(p.width_y[l]) + std::abs(p.height_y[l]);
+}
+
+/// Leaves what is worth the while beside a reach; returns whether any is. Each by itself, whatever its
+/// companions in the block do.
+LAGOMORPH_INLINE bool keep_wide(const LightTaps& t, const Lanes& reach_x, const Lanes& reach_y,
+                                Footprint& pixel) {
+  alignas(64) std::array<int, lanes> wide;
+  for (Index l = 0; l < all; ++l) {
+    // Within some texels: what is seen very much aslant is no reason.
+    wide[l] = static_cast<int>(std::min(covered_x(pixel, l), 64.0F * t.least_x) > least_cover * reach_x[l]) |
+              static_cast<int>(std::min(covered_y(pixel, l), 64.0F * t.least_y) > least_cover * reach_y[l]);
+    const float kept = wide[l] != 0 ? 1.0F : 0.0F;
+    for (Lanes* side : {&pixel.width_x, &pixel.width_y, &pixel.height_x, &pixel.height_y}) (*side)[l] *= kept;
+  }
+  return any(wide);
 }
 
 template <bool see_through>
@@ -301,14 +311,16 @@ LAGOMORPH_INLINE void look_from_light(const DepthMaps& maps, Index part, const R
   }
 }
 
-/// Whether the rectangle that is searched meets the map.
-LAGOMORPH_INLINE bool is_inside(const Search& search, Index l) {
+/// Whether the rectangle that is searched, over all of a pixel, meets the map.
+LAGOMORPH_INLINE bool is_inside(const Search& search, const Footprint& pixel, Index l) {
   const LightTaps& t = search.taps;
   const auto size = static_cast<float>(t.size);
-  return both(both((t.tangent_at_x[l] - search.reach_x[l]) * t.scale_x + t.offset_x < size,
-                   (t.tangent_at_y[l] - search.reach_y[l]) * t.scale_y + t.offset_y < size),
-              both((t.tangent_at_x[l] + search.reach_x[l]) * t.scale_x + t.offset_x > 0.0F,
-                   (t.tangent_at_y[l] + search.reach_y[l]) * t.scale_y + t.offset_y > 0.0F));
+  const float reach_x = search.reach_x[l] + covered_x(pixel, l);
+  const float reach_y = search.reach_y[l] + covered_y(pixel, l);
+  return both(both((t.tangent_at_x[l] - reach_x) * t.scale_x + t.offset_x < size,
+                   (t.tangent_at_y[l] - reach_y) * t.scale_y + t.offset_y < size),
+              both((t.tangent_at_x[l] + reach_x) * t.scale_x + t.offset_x > 0.0F,
+                   (t.tangent_at_y[l] + reach_y) * t.scale_y + t.offset_y > 0.0F));
 }
 
 template <bool see_through>
@@ -316,32 +328,31 @@ LAGOMORPH_INLINE void blockers_of(const DepthMaps& maps, Index part, const Recei
                                   Blockers& found) {
   Search search;
   look_from_light<see_through>(maps, part, at, search);
-  const bool cells = at.is_ground && maps.parts[part].alone && spacing > 1.0F;
-  if (at.is_ground && maps.parts[part].alone) {
-    Footprint pixel;
-    cover_pixels(search.taps, at, spacing, pixel);
-    const LightTaps& t = search.taps;
-    for (Index l = 0; l < all; ++l) {
-      if (cells) {
-        search.reach_x[l] += 2.0F * spacing * (std::abs(pixel.width_x[l]) + std::abs(pixel.height_x[l]));
-        search.reach_y[l] += 2.0F * spacing * (std::abs(pixel.width_y[l]) + std::abs(pixel.height_y[l]));
-      } else {
-        search.reach_x[l] += covered(pixel.width_x[l], pixel.height_x[l], t.least_x, search.reach_x[l]);
-        search.reach_y[l] += covered(pixel.width_y[l], pixel.height_y[l], t.least_y, search.reach_y[l]);
-      }
-    }
+  const LightTaps& t = search.taps;
+  Footprint pixel{};
+  bool covers = false;
+  if (maps.parts[part].alone) {
+    // Up to the next receivers, or what is narrower than from one to another would be missed.
+    cover_pixels(t, at, spacing, spacing > 1.0F ? 2.0F * spacing : 1.0F, pixel);
+    covers = keep_wide(t, search.reach_x, search.reach_y, pixel);
   }
   alignas(64) std::array<int, lanes> wanted;
   for (Index l = 0; l < all; ++l) {
     found.depth[l] = search.lit[l] != 0 ? at.depth[l] : -1e9F;
-    wanted[l] = search.lit[l] & search.beyond[l] & static_cast<int>(is_inside(search, l));
+    wanted[l] = search.lit[l] & search.beyond[l] & static_cast<int>(is_inside(search, pixel, l));
   }
   found.nearness.fill(0.0F);
   found.taps.fill(0.0F);
   if (!any(wanted)) return;
-  const int taps = cells ? cell_taps : maps.parts[part].search_taps;
-  add_taps<see_through, true>(search.taps, cells ? cell_lattice() : lattice(taps), taps, search.reach_x,
-                              search.reach_y, slack_of(at).search, wanted, found.nearness, found.taps);
+  const int taps = maps.parts[part].search_taps;
+  const float slack = slack_of(at).search;
+  if (covers) {
+    add_taps<see_through, true, true>(t, lattice(taps), taps, search.reach_x, search.reach_y, slack, wanted,
+                                      found.nearness, found.taps, &pixel);
+  } else {
+    add_taps<see_through, true>(t, lattice(taps), taps, search.reach_x, search.reach_y, slack, wanted,
+                                found.nearness, found.taps);
+  }
 }
 
 template <bool see_through>
@@ -369,28 +380,21 @@ LAGOMORPH_INLINE void shadow_of(const DepthMaps& maps, Index part, const Receive
     const float most = wanted[l] != 0 ? 1.0F : 0.0F;
     shadow.share[l] = std::min(std::max(0.5F * pixels - 0.5F, 0.0F), most);
   }
-  Footprint pixel;
-  alignas(64) std::array<int, lanes> covers{}, hard{};
-  if (at.is_ground && maps.parts[part].alone) {
-    cover_pixels(t, at, spacing, pixel);
+  Footprint pixel{};
+  bool covers = false;
+  alignas(64) std::array<int, lanes> hard{};
+  if (maps.parts[part].alone) {
+    cover_pixels(t, at, spacing, 1.0F, pixel);
     for (Index l = 0; l < all; ++l) {
       // What is seen aslant is farther from its neighbours than its footprint says.
-      const float width = std::abs(pixel.width_x[l]) + std::abs(pixel.height_x[l]);
-      const float height = std::abs(pixel.width_y[l]) + std::abs(pixel.height_y[l]);
-      const float pixels =
-          std::min(spread_x[l] / std::max(width, 1e-12F), spread_y[l] / std::max(height, 1e-12F));
+      const float pixels = std::min(spread_x[l] / std::max(covered_x(pixel, l), 1e-12F),
+                                    spread_y[l] / std::max(covered_y(pixel, l), 1e-12F));
       shadow.share[l] = std::min(shadow.share[l], std::max(0.5F * pixels / spacing - 0.25F, 0.0F));
       hard[l] = wanted[l] & static_cast<int>(pixels < least_penumbra * spacing);
-      covers[l] =
-          static_cast<int>(covered(pixel.width_x[l], pixel.height_x[l], t.least_x, spread_x[l]) > 0.0F ||
-                           covered(pixel.width_y[l], pixel.height_y[l], t.least_y, spread_y[l]) > 0.0F);
-      // Whatever its companions in the block do.
-      const float kept = covers[l] != 0 ? 1.0F : 0.0F;
-      for (Lanes* side : {&pixel.width_x, &pixel.width_y, &pixel.height_x, &pixel.height_y})
-        (*side)[l] *= kept;
     }
+    covers = keep_wide(t, spread_x, spread_y, pixel);
   }
-  if (any(covers)) {
+  if (covers) {
     add_taps<see_through, false, true>(t, lattice(taps), taps, spread_x, spread_y, slack_of(at).filter,
                                        wanted, total, blocked, &pixel);
   } else {

@@ -23,16 +23,15 @@ struct alignas(64) Blockers {
   Lanes taps;      // sum of their weights
   Lanes depth;     // the receiver's along the view axis [m]; of one that is not lit unlike any other
 };
-/// `spacing`: of the receivers [pixels]; where it is more than one, what hides a small light anywhere on the
-/// ground up to the next is found.
+/// `spacing`: of the receivers [pixels]; where it is more than one, what hides a small light anywhere up to
+/// the next is found.
 void find_blockers(const DepthMaps&, std::size_t part, const Receivers&, float spacing, Blockers&);
 
-/// Over the taps of the filter, which is as wide as what was found says, and of the ground over the pixel.
+/// Over the taps of the filter, which is as wide as what was found says, and of a small light over the pixel.
 struct alignas(64) Shadow {
   Lanes blocked;  // part of them
   Lanes share;    // in [0, 1], of neighbours: none where the penumbra is hardly wider than a pixel
-  LaneBits
-      hard;  // of the ground: receivers beside which an edge is too narrow to be seen from one to the next
+  LaneBits hard;  // receivers beside which a small light's edge is too narrow to be seen from one to the next
 };
 void filter_shadow(const DepthMaps&, std::size_t part, const Receivers&, const Blockers&, float spacing,
                    Shadow&);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
@@ -137,7 +138,6 @@ constexpr float ground_pixel = 0.005F;  // [m]
 /// A small sun's shadow 1 m beside what throws it at a height of 1 m, which is out of the picture.
 RenderScene under_a_small_sun() {
   RenderScene scene = empty_scene();
-  scene.ground.enabled = true;
   scene.suns.resize(1);
   scene.suns[0].direction = Vec3(1.0F, -1.0F, 0.0F);
   scene.suns[0].angle = 0.1F;
@@ -160,15 +160,31 @@ float below_middle(const Image& image, int y) {
   return ground_pixel * (static_cast<float>(y) + 0.5F - 0.5F * static_cast<float>(image.height()));
 }
 
-/// However it lies to the tiles and cells of the ground: nothing of it is more than two pixels beside it.
-TEST(RasterShadow, ASmallSunsEdgeIsSharpWhereverItIs) {
+/// To take the shadow where the ground is not.
+Mesh plate() { return box(Vec3(0.2F, -0.2F, -0.8F), Vec3(1.9F, 0.0F, 0.8F)); }
+
+/// On the ground and on a body.
+class SmallSunsShadow : public ::testing::TestWithParam<bool> {
+protected:
+  static RenderScene scene_with(std::initializer_list<Mesh> meshes) {
+    RenderScene scene = under_a_small_sun();
+    scene.ground.enabled = GetParam();
+    scene.meshes = meshes;
+    if (!GetParam()) scene.meshes.push_back(plate());
+    return scene;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(On, SmallSunsShadow, ::testing::Bool(),
+                         [](const auto& on) { return on.param ? "Ground" : "Body"; });
+
+/// However it lies to tiles and cells: nothing of it is more than two pixels beside it.
+TEST_P(SmallSunsShadow, IsSharpWhereverItIs) {
   constexpr float half = 0.3F;  // [m]
-  RenderScene scene = under_a_small_sun();
-  const Image open = of_ground_below(scene);
+  const Image open = of_ground_below(scene_with({}));
   for (int k = 0; k < 16; ++k) {
     const float shift = 1.17F * ground_pixel * static_cast<float>(k - 8);
-    scene.meshes = {rectangle(Vec3(shift, 1.0F, 0.7F * shift), half * Vec3::UnitZ(), half * Vec3::UnitX())};
-    const Image image = of_ground_below(scene);
+    const Image image = of_ground_below(
+        scene_with({rectangle(Vec3(shift, 1.0F, 0.7F * shift), half * Vec3::UnitZ(), half * Vec3::UnitX())}));
     int lit = 0, dark = 0, wrong = 0;
     for (int y = 0; y < image.height(); ++y) {
       for (int x = 0; x < image.width(); ++x) {
@@ -188,16 +204,14 @@ TEST(RasterShadow, ASmallSunsEdgeIsSharpWhereverItIs) {
 }
 
 /// Of a rod that is narrower than cells are, and so is what falls between them.
-TEST(RasterShadow, AThinShadowHasNoGaps) {
+TEST_P(SmallSunsShadow, HasNoGapsWhereItIsThin) {
   constexpr float half_length = 0.3F, half_width = 0.7F * ground_pixel;
-  RenderScene scene = under_a_small_sun();
-  const Image open = of_ground_below(scene);
+  const Image open = of_ground_below(scene_with({}));
   for (const float slope : {0.0F, 0.05F, 0.3F}) {
     for (int k = 0; k < 6; ++k) {
       const float shift = 0.83F * ground_pixel * static_cast<float>(k - 3);
-      scene.meshes = {rectangle(Vec3(0.0F, 1.0F, shift), half_width * Vec3::UnitZ(),
-                                half_length * Vec3(1.0F, 0.0F, slope))};
-      const Image image = of_ground_below(scene);
+      const Image image = of_ground_below(scene_with({rectangle(
+          Vec3(0.0F, 1.0F, shift), half_width * Vec3::UnitZ(), half_length * Vec3(1.0F, 0.0F, slope))}));
       double least = 1e9, most = 0.0;
       for (int x = 0; x < image.width(); ++x) {
         if (std::abs(right_of_middle(image, x)) > half_length - 3.0F * ground_pixel) continue;
