@@ -5,7 +5,6 @@
 #include <utility>
 #include <variant>
 
-#include "apps/error.h"
 #include "apps/file_io.h"
 #include "apps/hash.h"
 #include "apps/video/process.h"
@@ -21,12 +20,12 @@ bool is_shown(const VideoJob& job, int frame) {
   return frame >= job.first && frame <= job.last && (frame - job.first) % job.every == 0;
 }
 
-/// Throws Error(machine) where the picture is not like the job's others.
-std::vector<std::uint8_t> samples_of(render::Pixels pixels, const VideoJob& job) {
+/// As ffmpeg takes them; none where the picture is not like the job's others.
+std::optional<std::vector<std::uint8_t>> samples_of(render::Pixels pixels, const VideoJob& job) {
   auto* const samples = std::get_if<std::vector<std::uint8_t>>(&pixels.samples);
   if (samples == nullptr || pixels.width != job.width || pixels.height != job.height ||
       pixels.alpha != job.under.has_value())
-    throw Error(ExitStatus::machine, "pictures of a video differ in form");
+    return std::nullopt;
   return std::move(*samples);
 }
 
@@ -58,13 +57,15 @@ void VideoAhead::picture_written(int frame, render::Picture picture, const std::
   {
     const std::lock_guard lock(mutex_);
     there_.insert(frame);
-    if (ready_.size() < most_ready && is_shown(job_, frame))
-      ready_[frame] = {samples_of(render::to_pixels(std::move(picture)), job_), sha256};
+    if (ready_.size() < most_ready && is_shown(job_, frame)) {
+      if (auto samples = samples_of(render::to_pixels(std::move(picture)), job_))
+        ready_[frame] = {std::move(*samples), sha256};
+    }
   }
   changed_.notify_all();
 }
 
-/// None: it will not be there.
+/// None: it will not be there, or is not like the others.
 std::optional<VideoAhead::Shown> VideoAhead::wait_for(int frame) {
   {
     std::unique_lock lock(mutex_);
@@ -75,9 +76,11 @@ std::optional<VideoAhead::Shown> VideoAhead::wait_for(int frame) {
   return read(frame);
 }
 
-VideoAhead::Shown VideoAhead::read(int frame) const {
+std::optional<VideoAhead::Shown> VideoAhead::read(int frame) const {
   const std::string png = read_file(paths_.picture(frame));
-  return {samples_of(render::read_png(png, paths_.picture(frame).string()), job_), sha256(png)};
+  auto samples = samples_of(render::read_png(png, paths_.picture(frame).string()), job_);
+  if (!samples) return std::nullopt;
+  return Shown{std::move(*samples), sha256(png)};
 }
 
 void VideoAhead::encode() {

@@ -43,7 +43,7 @@ private:
   };
   void encode();
   std::optional<Shown> wait_for(int frame);
-  Shown read(int frame) const;
+  std::optional<Shown> read(int frame) const;
 
   const VideoJob job_;
   const RunPaths paths_;

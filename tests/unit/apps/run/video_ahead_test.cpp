@@ -1,5 +1,6 @@
 #include "apps/run/video_ahead.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -99,6 +100,15 @@ TEST_F(VideoAheadTest, IsNoVideoOfOtherPictures) {
   records_[2].picture->sha256 = "other";
   EXPECT_FALSE(ahead->finish(job(0, 4), records_));
   EXPECT_EQ(files(), 0);
+}
+
+TEST_F(VideoAheadTest, TellsNobodyOfAPictureThatIsNotLikeTheOthers) {
+  VideoAhead ahead(job(0, 1), paths_, {0});
+  ahead.picture_written(1, {8, 8, std::vector<std::uint8_t>(192)}, "other");  // its file is like the others
+  EXPECT_TRUE(ahead.finish(job(0, 1), records_));
+  write_file(paths_.picture(0), render::encode_png({8, 8, std::vector<std::uint8_t>(192)}, 1));
+  VideoAhead of_file(job(0, 1), paths_, {0, 1});
+  EXPECT_FALSE(of_file.finish(job(0, 1), records_));
 }
 
 TEST_F(VideoAheadTest, TellsNobodyWhenFfmpegFails) {
