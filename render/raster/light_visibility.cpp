@@ -111,14 +111,18 @@ LAGOMORPH_INLINE void add_taps(const LightTaps& t, const Lattice& points, int ta
     for (int row = 0; row < rows; ++row) {
       const Lattice::Row& p = points.rows[static_cast<Index>(see_through ? first : first + row)];
       const Index base = static_cast<Index>(row) * all;
+      [[maybe_unused]] float across = 0.0F, up = 0.0F;
+      if constexpr (covers) {
+        const Vec2& q = pixel_points()[static_cast<Index>(see_through ? first : first + row)];
+        across = q.x(), up = q.y();
+      }
       for (Index l = 0; l < all; ++l) {
         const float shift = see_through ? 0.5F : 0.0F;
         float tangent_x = t.tangent_at_x[l] + p.x[l] * reach_x[l];
         float tangent_y = t.tangent_at_y[l] + p.y[l] * reach_y[l];
         if constexpr (covers) {
-          const Vec2& q = pixel_points()[static_cast<Index>(see_through ? first : first + row)];
-          tangent_x += q[0] * pixel->width_x[l] + q[1] * pixel->height_x[l];
-          tangent_y += q[0] * pixel->width_y[l] + q[1] * pixel->height_y[l];
+          tangent_x += across * pixel->width_x[l] + up * pixel->height_x[l];
+          tangent_y += across * pixel->width_y[l] + up * pixel->height_y[l];
         }
         const float u = tangent_x * t.scale_x + t.offset_x - shift;
         const float v = tangent_y * t.scale_y + t.offset_y - shift;
