@@ -239,7 +239,7 @@ LayerPoint layer_point(Layers l, int layer) {
 // receivers.h. Point and plane are those of one sample, for the mean of two triangles' is on neither. The
 // number of the pixel's layers is its depth, so that the passes that light them skip all others: 0.125 for
 // each, 0.05 for none; layer_vertex is before those that have its layer. Where there is one, as in most, and
-// nothing but the texel is needed to light it, the depth is 0.01: only there plain_vertex, at 0.03, is behind.
+// nothing but the texel is needed to light it, it is 0.01: only there plain_vertex, at 0.03, is behind.
 const char* const surface_fragment = R"(
 uniform bool singles_are_plain;
 out uvec4 texel;

@@ -77,6 +77,20 @@ TEST_F(VideoAheadTest, HasTheBytesOfAVideoThatIsMadeAfterwards) {
   }
 }
 
+/// ffmpeg would take those near 120 a second for that.
+TEST_F(VideoAheadTest, HasTheRateThatItShould) {
+  for (const double fps : {23.976, 100.1, 119.88, 123.4}) {
+    VideoJob wanted = job(0, 5, 1, "prores4444");
+    wanted.fps = fps;
+    wanted.output = dir_.path() / "video.mov";
+    ASSERT_TRUE(make_video(wanted, never));
+    const std::string bytes = tests::read_all(wanted.output);
+    VideoAhead ahead(wanted, paths_, {0, 1, 2, 3, 4, 5});
+    ASSERT_TRUE(ahead.finish(wanted, records_));
+    EXPECT_TRUE(tests::read_all(wanted.output) == bytes) << fps;
+  }
+}
+
 TEST_F(VideoAheadTest, LeavesNothingWhereAPictureIsMissing) {
   VideoAhead ahead(job(0, 4), paths_, {0, 1, 3, 4});
   EXPECT_FALSE(ahead.finish(job(0, 4), records_));
