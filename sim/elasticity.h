@@ -58,7 +58,8 @@ public:
   void add_gradient(const VecX& q, double scale, VecX& g) const override {
     gather_.add_vectors(scale, g, [&](int begin, int end, double* vectors) {
       if constexpr (kInLanes) {
-        set_vectors(static_cast<std::size_t>(begin), static_cast<std::size_t>(end), q, vectors);
+        set_groups(begin, end, q, kVectorSize, vectors,
+                   [&](auto&&... of_group) { lanes_.set_vectors(of_group...); });
       } else {
         for (int j = begin; j < end; ++j, vectors += kVectorSize)
           set_vector(static_cast<std::size_t>(j), q, vectors);
@@ -71,7 +72,8 @@ public:
     gather_.add_matrices(scale, H, [&](int begin, int end, double* matrices) {
       if constexpr (kInLanes) {
         if (kind == HessianKind::exact) {
-          set_matrices(static_cast<std::size_t>(begin), static_cast<std::size_t>(end), q, matrices);
+          set_groups(begin, end, q, kMatrixSize, matrices,
+                     [&](auto&&... of_group) { lanes_.set_matrices(of_group...); });
           return;
         }
       }
@@ -209,23 +211,16 @@ private:
     return d;
   }
 
-  /// Of elements [begin, end); `begin` begins a group, and there is room for the whole of the last.
-  void set_vectors(std::size_t begin, std::size_t end, const VecX& q, double* vectors) const {
-    for (std::size_t j = begin; j < end; j += TetLanes::kLanes, vectors += TetLanes::kLanes * kVectorSize) {
+  /// set(group, deformation, derivatives, values) for the groups of elements [begin, end), each with room for
+  /// `size` values an element; `begin` begins a group, and there is room for the whole of the last.
+  template <class Set>
+  void set_groups(int begin, int end, const VecX& q, std::size_t size, double* values, const Set& set) const {
+    for (auto j = static_cast<std::size_t>(begin); j < static_cast<std::size_t>(end);
+         j += TetLanes::kLanes, values += TetLanes::kLanes * size) {
       const std::size_t group = j / TetLanes::kLanes;
       TetLanes::Deformation at;
       lanes_.deform(group, q, at);
-      lanes_.set_vectors(group, at, derivatives(group, at), vectors);
-    }
-  }
-
-  /// The same of matrices.
-  void set_matrices(std::size_t begin, std::size_t end, const VecX& q, double* matrices) const {
-    for (std::size_t j = begin; j < end; j += TetLanes::kLanes, matrices += TetLanes::kLanes * kMatrixSize) {
-      const std::size_t group = j / TetLanes::kLanes;
-      TetLanes::Deformation at;
-      lanes_.deform(group, q, at);
-      lanes_.set_matrices(group, at, derivatives(group, at), matrices);
+      set(group, at, derivatives(group, at), values);
     }
   }
 

@@ -20,6 +20,11 @@
 namespace lagomorph::apps {
 namespace {
 
+auto timed(sim::Stage stage, const auto& work) {
+  const sim::Timed timer(stage);
+  return work();
+}
+
 std::string encode_npy(const render::Channel& channel) {
   const std::array<std::size_t, 3> shape = {static_cast<std::size_t>(channel.height),
                                             static_cast<std::size_t>(channel.width),
@@ -67,10 +72,8 @@ std::optional<FrameWriter::Written> FrameWriter::write(const DrawnFrame& frame) 
   std::optional<Written> written;
   if (frame.image) {
     written.emplace();
-    {
-      const sim::Timed timed(sim::Stage::overlays);
-      written->picture = views_.finish(*frame.image, frame.of.state, *record.state);
-    }
+    written->picture = timed(sim::Stage::overlays,
+                             [&] { return views_.finish(*frame.image, frame.of.state, *record.state); });
     record.picture = write_picture(frame, written->picture);
     written->sha256 = record.picture->sha256;
     record.picture->of_state = record.state->sha256;
@@ -82,7 +85,7 @@ std::optional<FrameWriter::Written> FrameWriter::write(const DrawnFrame& frame) 
 }
 
 StateRecord FrameWriter::write_state(const sim::State& state, StateRecord record) const {
-  const sim::Timed timed(sim::Stage::write);
+  const sim::Timed timer(sim::Stage::write);
   const std::string bytes = encode_state(state);
   write_file(paths_.state(state.frame), bytes);
   record.sha256 = sha256(bytes);
@@ -93,10 +96,6 @@ StateRecord FrameWriter::write_state(const sim::State& state, StateRecord record
 PictureRecord FrameWriter::write_picture(const DrawnFrame& drawn, const render::Picture& picture) const {
   const render::Image& image = *drawn.image;
   const int frame = drawn.of.job.frame;
-  const auto timed = [](sim::Stage stage, auto&& work) {
-    const sim::Timed timer(stage);
-    return work();
-  };
   const std::string png =
       timed(sim::Stage::encode, [&] { return render::encode_png(picture, scene_.render.png_compression); });
   PictureRecord record;

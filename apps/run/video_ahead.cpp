@@ -57,21 +57,22 @@ void VideoAhead::picture_written(int frame, render::Picture picture, const std::
   {
     const std::lock_guard lock(mutex_);
     there_.insert(frame);
-    if (ready_.size() < most_ready && is_shown(job_, frame)) {
-      if (auto samples = samples_of(render::to_pixels(std::move(picture)), job_))
-        ready_[frame] = {std::move(*samples), sha256};
-    }
+    if (ready_.size() < most_ready && is_shown(job_, frame)) ready_[frame] = {std::move(picture), sha256};
   }
   changed_.notify_all();
 }
 
 /// None: it will not be there, or is not like the others.
 std::optional<VideoAhead::Shown> VideoAhead::wait_for(int frame) {
-  {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return gives_up_ || last_ || there_.contains(frame); });
-    if (gives_up_ || !there_.contains(frame)) return std::nullopt;
-    if (const auto ready = ready_.extract(frame)) return std::move(ready.mapped());
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return gives_up_ || last_ || there_.contains(frame); });
+  if (gives_up_ || !there_.contains(frame)) return std::nullopt;
+  const auto ready = ready_.extract(frame);
+  lock.unlock();
+  if (ready) {
+    Written& written = ready.mapped();
+    if (auto samples = samples_of(render::to_pixels(std::move(written.picture)), job_))
+      return Shown{std::move(*samples), std::move(written.sha256)};
   }
   return read(frame);
 }

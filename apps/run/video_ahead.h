@@ -36,6 +36,11 @@ public:
   bool finish(const VideoJob&, const std::map<int, FrameRecord>& records);
 
 private:
+  /// A picture that was just written.
+  struct Written {
+    render::Picture picture;
+    std::string sha256;  // of its file
+  };
   /// Of a frame, as ffmpeg takes it.
   struct Shown {
     std::vector<std::uint8_t> pixels;
@@ -50,7 +55,7 @@ private:
   std::mutex mutex_;
   std::condition_variable changed_;
   std::set<int> there_;
-  std::map<int, Shown> ready_;  // of those that were just written, a few, so that they need not be read
+  std::map<int, Written> ready_;          // a few, so that they need not be read
   bool last_ = false, gives_up_ = false;  // no more are written; what is there is not wanted
   bool done_ = false;
   std::map<int, std::string> hashes_;  // SHA-256 of what was encoded

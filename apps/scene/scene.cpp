@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
 
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// No scene is larger; a mesh or a film that is taken for one need not be read whole.
-constexpr std::streamsize most_bytes = std::streamsize{1} << 24;
+constexpr std::size_t most_bytes = std::size_t{1} << 24;
 
 std::string read_text(const fs::path& file) {
   std::error_code none;
@@ -31,14 +32,14 @@ std::string read_text(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::string text;
   std::array<char, 65536> part;
-  while (in && static_cast<std::streamsize>(text.size()) < most_bytes) {
+  while (in && text.size() < most_bytes) {
     in.read(part.data(), part.size());
     text.append(part.data(), static_cast<std::size_t>(in.gcount()));
   }
   if (!in.is_open() || in.bad()) {
     wrong_input(fmt::format("{}: the scene cannot be read: {}", file.string(), std::strerror(errno)));
   }
-  if (static_cast<std::streamsize>(text.size()) == most_bytes) {
+  if (text.size() == most_bytes) {
     wrong_input(fmt::format("{}: larger than any scene", file.string()));
   }
   return text;

@@ -188,10 +188,10 @@ std::vector<std::string> ffmpeg_command(const VideoJob& job) {
 }
 
 std::vector<std::string> fed_ffmpeg_command(const VideoJob& job) {
-  // -r as well: -framerate alone is taken for the next common rate where that is near.
-  return command_with(job, {"-f", "rawvideo", "-pix_fmt", job.under ? "rgba" : "rgb24", "-video_size",
-                            fmt::format("{}x{}", job.width, job.height), "-framerate", rate_text(job), "-r",
-                            rate_text(job), "-i", "pipe:0"});
+  // Not -framerate, which is taken for the next common rate where that is near.
+  return command_with(job,
+                      {"-f", "rawvideo", "-pix_fmt", job.under ? "rgba" : "rgb24", "-video_size",
+                       fmt::format("{}x{}", job.width, job.height), "-r", rate_text(job), "-i", "pipe:0"});
 }
 
 bool make_video(const VideoJob& job, const std::function<bool()>& stop) {

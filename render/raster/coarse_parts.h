@@ -146,7 +146,7 @@ private:
         if (smooth.dark_specks_show && std::min(a[k], b[k]) < dark) of_dark = std::max(of_dark, of_part);
         least_seen = std::min(least_seen, b[k]);
       }
-      if (hard_[other] != 0) return Kind::rough;
+      if (hard_[other] != 0) most = 1.0F;  // it may hide all
       if (surfaces_[other].depth >= nowhere) continue;
       most = std::max(most, difference);
       most_of_dark = std::max(most_of_dark, of_dark);

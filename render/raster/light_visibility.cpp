@@ -174,8 +174,18 @@ LAGOMORPH_INLINE void add_taps(const LightTaps& t, const Lattice& points, int ta
   }
 }
 
-/// Difference in depth between neighbours of one surface [footprints].
-constexpr float one_surface = 10.0F;
+/// The same; `pixel` is nullptr where nothing of it is worth the while.
+template <bool see_through, bool search>
+LAGOMORPH_INLINE void add_taps_over(const Footprint* pixel, const LightTaps& t, int taps,
+                                    const Lanes& reach_x, const Lanes& reach_y, float slack,
+                                    const std::array<int, lanes>& wanted, Lanes& sum, Lanes& count) {
+  const Lattice& points = lattice(taps);
+  if (pixel != nullptr) {
+    add_taps<see_through, search, true>(t, points, taps, reach_x, reach_y, slack, wanted, sum, count, pixel);
+  } else {
+    add_taps<see_through, search>(t, points, taps, reach_x, reach_y, slack, wanted, sum, count);
+  }
+}
 
 /// Of the light's size, see add_taps().
 struct Slack {
@@ -348,15 +358,8 @@ LAGOMORPH_INLINE void blockers_of(const DepthMaps& maps, Index part, const Recei
   found.nearness.fill(0.0F);
   found.taps.fill(0.0F);
   if (!any(wanted)) return;
-  const int taps = maps.parts[part].search_taps;
-  const float slack = slack_of(at).search;
-  if (covers) {
-    add_taps<see_through, true, true>(t, lattice(taps), taps, search.reach_x, search.reach_y, slack, wanted,
-                                      found.nearness, found.taps, &pixel);
-  } else {
-    add_taps<see_through, true>(t, lattice(taps), taps, search.reach_x, search.reach_y, slack, wanted,
-                                found.nearness, found.taps);
-  }
+  add_taps_over<see_through, true>(covers ? &pixel : nullptr, t, maps.parts[part].search_taps, search.reach_x,
+                                   search.reach_y, slack_of(at).search, wanted, found.nearness, found.taps);
 }
 
 template <bool see_through>
@@ -371,7 +374,6 @@ LAGOMORPH_INLINE void shadow_of(const DepthMaps& maps, Index part, const Receive
   Search search;
   look_from_light<see_through>(maps, part, at, search);
   const LightTaps& t = search.taps;
-  const int taps = maps.parts[part].filter_taps;
   alignas(64) Lanes spread_x, spread_y, total, blocked;
   for (Index l = 0; l < all; ++l) {
     const float nearer = found.nearness[l] / std::max(found.taps[l], 1e-12F) - t.reciprocal[l];
@@ -398,13 +400,8 @@ LAGOMORPH_INLINE void shadow_of(const DepthMaps& maps, Index part, const Receive
     }
     covers = keep_wide(t, spread_x, spread_y, pixel);
   }
-  if (covers) {
-    add_taps<see_through, false, true>(t, lattice(taps), taps, spread_x, spread_y, slack_of(at).filter,
-                                       wanted, total, blocked, &pixel);
-  } else {
-    add_taps<see_through, false>(t, lattice(taps), taps, spread_x, spread_y, slack_of(at).filter, wanted,
-                                 total, blocked);
-  }
+  add_taps_over<see_through, false>(covers ? &pixel : nullptr, t, maps.parts[part].filter_taps, spread_x,
+                                    spread_y, slack_of(at).filter, wanted, total, blocked);
   for (Index l = 0; l < all; ++l) shadow.blocked[l] = blocked[l] / std::max(total[l], 1e-12F);
   for (Index l = 0; l < all; ++l) shadow.hard = static_cast<LaneBits>(shadow.hard | hard[l] << l);
 }

@@ -86,7 +86,6 @@ struct OfLights {
       soft_shadow(to.frame, to.maps, static_cast<int>(i), at, seen, parts.hard);
       for (std::size_t b = 0; b < seen.size(); ++b) parts.seen[b][i] = seen[b];
     }
-    if (smooth.most_difference >= 1.0F) std::fill(parts.hard.begin(), parts.hard.end(), LaneBits{0});
     return parts;
   }
   void put(const std::array<float, count>& seen, std::size_t pixel) const {
@@ -292,8 +291,8 @@ void light_surfaces_by_cells(const What& what, const SurfaceTexels& surfaces) {
       if (t == nullptr) return Found::nothing_there;
       const auto depth = std::bit_cast<float>(t->depth);
       return cells.find(
-                 at_x, at_y, depth, [t] { return normal_of(*t); }, 10.0F * pixel_footprint(frame, depth),
-                 seen)
+                 at_x, at_y, depth, [t] { return normal_of(*t); },
+                 one_surface * pixel_footprint(frame, depth), seen)
                  ? Found::yes
                  : Found::no;
     };

@@ -28,6 +28,9 @@ struct alignas(64) Lanes3 {
   }
 };
 
+/// Difference in depth within which a surface goes on from a pixel to its neighbours [footprints].
+constexpr float one_surface = 10.0F;
+
 /// Of a lane in its quad, from below.
 constexpr int row(int lane) { return (lane >> 1) & 1; }
 

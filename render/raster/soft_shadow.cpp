@@ -154,7 +154,8 @@ public:
     Lanes reach{};
     for (const ReceiverBlock& block : at.blocks) {
       const Lanes& footprint = block.at.footprint;
-      std::transform(footprint.begin(), footprint.end(), reach.begin(), [](float f) { return 10.0F * f; });
+      std::transform(footprint.begin(), footprint.end(), reach.begin(),
+                     [](float f) { return one_surface * f; });
       tolerance_.put(block, reach);
     }
   }
